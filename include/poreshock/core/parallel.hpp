@@ -1,0 +1,47 @@
+#pragma once
+// MPI and PETSc: start and end, and the few collectives the program uses.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace poreshock {
+
+/// Starts MPI and PETSc and ends them when it goes out of scope. Collective.
+class Runtime {
+ public:
+  Runtime(int& argc, char**& argv);
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+
+  MPI_Comm communicator() const { return MPI_COMM_WORLD; }
+};
+
+/// Rank of this process. Not collective.
+int rank(MPI_Comm communicator);
+/// Number of ranks. Not collective.
+int size(MPI_Comm communicator);
+
+/// Throws SystemError with the text of a PETSc error code when it is not zero. Not collective.
+void check_petsc(int code, const char* what);
+/// Throws SystemError with the text of an MPI error code when it is not MPI_SUCCESS. Not collective.
+void check_mpi(int code, const char* what);
+
+/// Largest value over all ranks. Collective.
+int largest(int value, MPI_Comm communicator);
+/// Sum over all ranks, exact. Collective.
+std::int64_t sum(std::int64_t value, MPI_Comm communicator);
+/// Sums element by element over all ranks, exact. Collective.
+void sum(std::vector<std::int64_t>& values, MPI_Comm communicator);
+/// Copies rank 0's text to all ranks. Collective.
+void broadcast(std::string& text, MPI_Comm communicator);
+
+/// Program version, for example "0.1.0".
+std::string version();
+/// Source revision the program was built from.
+std::string revision();
+
+}  // namespace poreshock

@@ -1,0 +1,105 @@
+#pragma once
+// The background grid of one rank: a slab of node rows of a PETSc DMDA, and the seam over which
+// neighbouring slabs complete their nodal sums.
+//
+// Node index i = 0 ... cells + 2 along every axis lies at (i - 1) * cell: one node of padding below
+// the domain and one above. Lateral axes are flattened into one row of `row_size` nodes. A particle
+// belongs to its stencil cell, named by the lowest node of its stencil; a row of stencil cells has
+// the index of its lowest node row, and each row belongs to exactly one rank.
+
+#include <petscdmda.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "poreshock/core/lanes.hpp"
+#include "poreshock/grid/partition.hpp"
+#include "poreshock/scene/scene.hpp"
+
+namespace poreshock {
+
+/// Shape of the grid, the same on every rank.
+struct GridShape {
+  int dimension = 2;
+  int stencil = 4;                       ///< nodes per axis of a stencil: 3 quadratic, 4 cubic
+  double cell = 0.0;                     ///< m
+  std::array<int, 3> nodes{1, 1, 1};     ///< per axis: cells + 3
+  std::array<bool, 2> periodic{};        ///< lateral axes
+  int row_size = 0;                      ///< nodes of one row
+  int rows = 0;                          ///< node rows along the shock axis
+};
+
+GridShape make_grid_shape(const Scene& scene);
+
+/// Least rows per slab for this stencil (seam depth, and mirror nodes at the walls).
+SlabLimits slab_limits(const GridShape& shape);
+
+/// Node arrays of one slab. A class because it owns PETSc objects.
+class SlabGrid {
+ public:
+  /// starts: parts + 1 row starts, see partition_rows. Collective.
+  SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm communicator);
+  ~SlabGrid();
+  SlabGrid(const SlabGrid&) = delete;
+  SlabGrid& operator=(const SlabGrid&) = delete;
+
+  const GridShape& shape() const { return shape_; }
+  MPI_Comm communicator() const { return communicator_; }
+  const std::vector<int>& starts() const { return starts_; }
+  /// Rows of stencil cells owned: [first_row, last_row).
+  int first_row() const { return first_; }
+  int last_row() const { return last_; }
+  /// Node rows that are complete here: [first_row, node_end), the last ones redundantly with the
+  /// rank above.
+  int node_end() const { return node_end_; }
+  /// Rank that owns a row.
+  int owner(int row) const;
+
+  /// Nodes of one row, row_size entries; row in [first_row, node_end).
+  Lanes* row(int row) { return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size; }
+  const Lanes* row(int row) const {
+    return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size;
+  }
+
+  /// Sets all nodal sums and the seam to +0. Not collective.
+  void clear();
+
+  /// Adds the sums of the particles of one row to its `stencil` node rows, or keeps them apart in the
+  /// seam where another rank shares the nodes. Call once per row, in row order. Not collective.
+  void add_row(int row, const Lanes* buffer);
+
+  /// Completes the nodal sums: one exchange of the seam, sums in row order, periodic sides folded.
+  /// Before: add_row for every row with particles. After: nodes in [first_row, node_end) hold the
+  /// sums over all particles of the scene. Collective (neighbours).
+  void exchange();
+
+  /// Copies nodes onto their periodic images in all rows. Not collective.
+  void fill_periodic_images();
+
+  /// The DMDA of the nodes, dof 8, for output.
+  DM nodes_dm() const { return node_dm_; }
+  /// Bytes held on this rank.
+  std::size_t bytes() const;
+
+ private:
+  int down_plane(int row_offset, int node_offset) const;
+  int up_plane(int row_offset, int node_offset) const;
+  void assemble_seam_row(int node_row, const Lanes* below, const Lanes* above, int offset);
+  void fold_periodic();
+
+  GridShape shape_;
+  std::vector<int> starts_;
+  MPI_Comm communicator_;
+  int first_ = 0, last_ = 0, node_end_ = 0;
+  bool has_below_ = false, has_above_ = false;
+  int planes_ = 0;          ///< seam planes per direction
+  DM node_dm_ = nullptr, seam_dm_ = nullptr;
+  Vec node_vector_ = nullptr, seam_vector_ = nullptr;
+  Lanes* nodes_ = nullptr;  ///< node row first_
+  Lanes* seam_ = nullptr;   ///< first plane owned by this rank
+  double* node_array_ = nullptr;
+  double* seam_array_ = nullptr;
+};
+
+}  // namespace poreshock

@@ -1,0 +1,94 @@
+#pragma once
+// Materials: their parameters as a scene states them, the constants kernels use, and what follows
+// from a particle's state. A material model is a struct with the members the concept names; the
+// models are listed once, in the variant `Material`.
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "poreshock/material/j2_plasticity.hpp"
+#include "poreshock/material/mie_gruneisen.hpp"
+
+namespace poreshock {
+
+enum class Thermal { paper, conserving };
+enum class PlasticHeat { work, dissipation };
+
+/// Isotropic elastic-plastic solid with J2 plasticity and a Mie-Grueneisen equation of state.
+struct MaterialParameters {
+  std::string name;
+  std::string model = "j2_mie_gruneisen";
+  double density = 0.0;          ///< kg/m^3
+  double young = 0.0;            ///< Pa; with poisson it gives the shear modulus only
+  double poisson = 0.0;
+  double yield = 0.0;            ///< Pa
+  double hardening = 0.0;        ///< Pa
+  double kinematic_share = 0.0;  ///< 0 isotropic ... 1 kinematic
+  PlasticHeat plastic_heat = PlasticHeat::work;
+  double c0 = 0.0;               ///< m/s, bulk sound speed
+  double lambda = 0.0;           ///< slope of Us = c0 + lambda Up
+  double gamma = 0.0;            ///< constant Grueneisen coefficient
+  double cv = 0.0;               ///< J/(kg K)
+  double conductivity = 0.0;     ///< W/(m K)
+  double T0 = 300.0;             ///< K
+  std::optional<double> spall;   ///< Pa, tension at which the material parts
+
+  bool operator==(const MaterialParameters&) const = default;
+};
+
+/// J2 plasticity with a Mie-Grueneisen equation of state.
+struct J2MieGruneisen {
+  MieGruneisen eos;
+  J2Plasticity strength;
+  TemperatureCurve temperature;
+  PlasticHeat plastic_heat = PlasticHeat::work;
+  double spall = 0.0;            ///< Pa; 0 = no spall
+
+  /// Energy per mass stored in the deviator, s:s/(4 G rho), J/kg; zero for a fluid.
+  double deviatoric_energy(double deviator_square, double density) const {
+    return strength.shear > 0.0 ? deviator_square / (4.0 * strength.shear * density) : 0.0;
+  }
+  /// Energy per mass stored by the back stress when it is not heat, 3 a:a/(4 Hk rho), J/kg.
+  double back_stress_energy(double back_stress_square, double density) const {
+    return plastic_heat == PlasticHeat::dissipation && strength.kinematic > 0.0
+               ? 0.75 * back_stress_square / (strength.kinematic * density)
+               : 0.0;
+  }
+};
+
+/// What every material model offers to the kernels.
+template <class T>
+concept MaterialModel = requires(const T& m, double x) {
+  { m.deviatoric_energy(x, x) } -> std::convertible_to<double>;
+  { m.back_stress_energy(x, x) } -> std::convertible_to<double>;
+  { m.eos.density } -> std::convertible_to<double>;
+};
+
+using Material = std::variant<J2MieGruneisen>;
+static_assert(MaterialModel<J2MieGruneisen>);
+
+/// Constants of a material from its parameters.
+Material make_material(const MaterialParameters& parameters);
+
+/// State of one particle that its temperature depends on.
+struct ThermalState {
+  double density = 0.0;             ///< kg/m^3
+  double internal_energy = 0.0;     ///< J/kg
+  double plastic_work = 0.0;        ///< J/kg
+  double deviator_square = 0.0;     ///< s:s, Pa^2
+  double back_stress_square = 0.0;  ///< Pa^2
+};
+
+/// Temperature, K. paper: T_r(V) + W_p/c_v (eqs 6, 7); conserving: T_r(V) + (E - E_r(V))/c_v with the
+/// elastic deviatoric energy taken off E. Not clamped.
+double temperature(const Material& material, Thermal thermal, const ThermalState& state);
+
+/// Longitudinal sound speed of the undisturbed material, m/s.
+double longitudinal_sound_speed(const Material& material);
+
+/// Density of the undisturbed material, kg/m^3.
+double initial_density(const Material& material);
+
+}  // namespace poreshock

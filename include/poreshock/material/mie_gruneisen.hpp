@@ -1,0 +1,79 @@
+#pragma once
+// Mie-Grueneisen equation of state on the shock Hugoniot Us = c0 + lambda Up, with a constant
+// Grueneisen coefficient; in expansion the reference is linear in the specific volume.
+// eta = 1 - V/V0 = 1 - rho0/rho. Compression positive.
+
+#include <vector>
+
+namespace poreshock {
+
+/// Constants of the equation of state; make_mie_gruneisen fills the derived ones.
+struct MieGruneisen {
+  double density = 0.0;   ///< rho0, kg/m^3
+  double bulk = 0.0;      ///< rho0 c0^2, Pa
+  double lambda = 0.0;
+  double gamma = 0.0;
+  double cv = 0.0;        ///< J/(kg K)
+  double T0 = 0.0;        ///< K
+  double guard = 0.0;     ///< eta beyond which the reference curve continues by its tangent
+};
+
+/// Reference curve at one compression: pressure (Pa), its slope dP/deta, energy (J/kg), dE/deta.
+struct ReferencePoint {
+  double pressure, pressure_slope, energy, energy_slope;
+};
+
+/// Pressure (Pa) and squared bulk sound speed (m^2/s^2).
+struct EquationOfState {
+  double pressure, sound_speed2;
+};
+
+MieGruneisen make_mie_gruneisen(double density, double c0, double lambda, double gamma, double cv,
+                                double T0);
+
+/// Hugoniot for V <= V0, isentrope linear in V for V > V0 (paper eq 5 with V0 in the denominator and
+/// the sign of the expansion branch that is stable), tangent beyond the guard.
+inline ReferencePoint reference_point(const MieGruneisen& eos, double eta) {
+  const double above = eta > 0.0 ? eta : 0.0;
+  const double inside = above < eos.guard ? above : eos.guard;
+  const double f = 1.0 / (1.0 - eos.lambda * inside);
+  const double slope = eos.bulk * (1.0 + eos.lambda * inside) * (f * f * f);
+  const double pressure = eos.bulk * inside * (f * f) + slope * (eta - inside);
+  const double half_volume = 0.5 / eos.density;
+  return {pressure, slope, half_volume * pressure * eta, half_volume * (slope * eta + pressure)};
+}
+
+/// P = P_r + gamma rho (E - E_r) and c^2 = (dP/drho)_S; `energy` is per mass without the elastic
+/// deviatoric part (conserving mode).
+inline EquationOfState conserving_state(const MieGruneisen& eos, double density, double energy) {
+  const double v = 1.0 / density;
+  const ReferencePoint r = reference_point(eos, 1.0 - eos.density * v);
+  const double thermal = energy - r.energy;
+  const double pressure = r.pressure + eos.gamma * density * thermal;
+  const double slope =
+      eos.density * (v * v) * (r.pressure_slope - eos.gamma * density * r.energy_slope);
+  return {pressure, slope + eos.gamma * thermal + eos.gamma * pressure * v};
+}
+
+/// P = P_r + gamma rho W with W the plastic work per mass (paper eqs 4 and 5).
+inline EquationOfState paper_state(const MieGruneisen& eos, double density, double plastic_work) {
+  const double v = 1.0 / density;
+  const ReferencePoint r = reference_point(eos, 1.0 - eos.density * v);
+  return {r.pressure + eos.gamma * density * plastic_work,
+          eos.density * (v * v) * r.pressure_slope + eos.gamma * plastic_work};
+}
+
+/// Temperature along the reference curve, T_r(eta), tabulated (paper eq 6; T V^gamma constant in
+/// expansion). Between the nodes a cubic Hermite polynomial with the exact slope: error < 1e-6 K.
+struct TemperatureCurve {
+  double first = 0.0, step = 0.0;   ///< eta of node 0, spacing
+  std::vector<double> value, slope; ///< K, K per unit eta
+};
+
+TemperatureCurve make_temperature_curve(const MieGruneisen& eos);
+
+/// T_r at eta, K. Outside the table it continues by the tangent at its end (compression) or exactly
+/// (expansion).
+double reference_temperature(const MieGruneisen& eos, const TemperatureCurve& curve, double eta);
+
+}  // namespace poreshock

@@ -1,0 +1,21 @@
+#pragma once
+// The output folder of a run.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+
+namespace poreshock {
+
+/// Makes an output folder and proves that it can be written to. An existing one is refused with
+/// InputError, unless `force` (our own files in it are removed, others stay) or `restart` (nothing
+/// is removed but unfinished files of a killed run). Rank 0 works. Collective.
+void prepare_output_folder(const std::string& path, bool force, bool restart,
+                           MPI_Comm communicator);
+
+/// Removes snapshots and morphology files of record `first` and later, which a restarted run is
+/// about to write again. Rank 0 works. Collective.
+void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm communicator);
+
+}  // namespace poreshock

@@ -1,0 +1,68 @@
+#pragma once
+// history.csv: one row of totals per record, names with units in the first line.
+
+#include <mpi.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "poreshock/output/posix_file.hpp"
+
+namespace poreshock {
+
+/// Totals of a run at one time; energies in J (J per metre of depth in plane strain).
+struct HistoryRow {
+  double time = 0.0;  ///< s
+  std::int64_t step = 0;
+  double dt = 0.0;  ///< s
+  std::int64_t particles = 0;
+  double kinetic = 0.0;
+  double internal = 0.0;
+  double escaped = 0.0;
+  double wall_work = 0.0;
+  double body_work = 0.0;
+  double total = 0.0;
+  double elastic = 0.0;
+  double plastic_work = 0.0;
+  double viscous_heat = 0.0;
+  double filter_heat = 0.0;
+  double wall_heat = 0.0;
+  double contact_heat = 0.0;
+  double friction_heat = 0.0;
+  double conduction = 0.0;
+  std::array<double, 3> momentum{};  ///< kg m/s (kg/s in plane strain, where z is not written)
+  std::int64_t guards = 0;           ///< clamps and floors so far
+};
+
+/// First line of the file, without its end of line.
+std::string history_header(int dimension);
+
+/// One line of the file, without its end of line; 17 significant digits.
+std::string history_line(const HistoryRow& row, int dimension);
+
+/// The open history of a run. Only rank 0 has the file; all members are collective, and a failing
+/// write throws SystemError on all ranks.
+class HistoryWriter {
+ public:
+  /// Starts a new file. With `restart_step` it goes on with the one there is: rows of later steps
+  /// and a line cut off by a killed run are dropped first; a missing file is started anew.
+  /// InputError when the file there has other columns.
+  HistoryWriter(const std::string& path, int dimension, MPI_Comm communicator,
+                std::optional<std::int64_t> restart_step = std::nullopt);
+
+  /// Appends one row, and hands it to the operating system at once.
+  void write(const HistoryRow& row);
+
+ private:
+  void append(const std::string& line);
+
+  int dimension_;
+  MPI_Comm communicator_;
+  std::unique_ptr<FileDescriptor> file_;  // rank 0 only
+  std::uint64_t end_ = 0;
+};
+
+}  // namespace poreshock

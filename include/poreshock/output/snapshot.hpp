@@ -1,0 +1,46 @@
+#pragma once
+// Snapshots: the particles as a reader wants them, one row per particle, in SI units.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "poreshock/core/tensor.hpp"
+#include "poreshock/material/material.hpp"
+#include "poreshock/particles/particles.hpp"
+#include "poreshock/scene/scene.hpp"
+
+namespace poreshock {
+
+/// What a snapshot is made of; everything is referred to, nothing is copied.
+template <int Dim>
+struct SnapshotInput {
+  const Scene& scene;
+  const std::string& scene_text;  ///< resolved scene, TOML
+  const std::vector<Material>& materials;
+  const Particles<Dim>& particles;  ///< of this rank
+  std::int64_t record = 0;
+  std::int64_t step = 0;
+  double time = 0.0;                        ///< s
+  Vector<Dim> shift = Vector<Dim>::Zero();  ///< m, added to the positions
+};
+
+/// Names a scene may list in output.fields; `id` and `position` are always written.
+std::vector<std::string_view> snapshot_fields();
+
+/// File name of a snapshot in its folder: snapshot_NNNNNN.h5.
+std::string snapshot_name(std::int64_t record);
+
+/// Writes /particles/... of all ranks into one sealed file, rank after rank in the order the
+/// particles are stored, replacing an older file. Fields as scene.output.fields says (all when
+/// empty), as float32 when the scene asks for single precision (ids, grains and materials stay
+/// integers). Returns the number of temperatures, over all ranks, that were set to the floor of 1
+/// K. Throws SystemError on all ranks when the disk is full. Collective.
+template <int Dim>
+std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& input,
+                            MPI_Comm communicator);
+
+}  // namespace poreshock

@@ -1,0 +1,22 @@
+#pragma once
+// The canonical order of particles: by (cell, grain, id). Kernels walk particles in this order, so
+// their sums do not depend on where or how particles are stored.
+
+#include <cstdint>
+#include <vector>
+
+namespace poreshock {
+
+/// Particles cell after cell: those of cell c are order[start[c]] ... order[start[c + 1] - 1].
+struct CellOrder {
+  std::vector<std::uint32_t> start;  ///< cells + 1 entries
+  std::vector<std::uint32_t> order;  ///< indices into the particle columns
+};
+
+/// Sorts particles by (cell, grain, id). Counting sort, then insertion within a cell; cheap when the
+/// storage is nearly sorted. Not collective.
+void sort_by_cell(const std::vector<std::uint32_t>& cell, std::size_t cells,
+                  const std::vector<std::int32_t>& grain, const std::vector<std::int64_t>& id,
+                  CellOrder& result);
+
+}  // namespace poreshock

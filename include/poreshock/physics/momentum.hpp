@@ -1,0 +1,22 @@
+#pragma once
+// Momentum balance at the nodes.
+
+#include "poreshock/grid/slab_grid.hpp"
+#include "poreshock/physics/node_ledger.hpp"
+
+namespace poreshock {
+
+/// From nodal sums (SumLane) to motion (MotionLane): v = p/m, v' = v + dt (f/m + b) (paper eq 13), and
+/// for affine particles the heat per mass that their projection onto the grid loses. Empty nodes stay
+/// zero. Body-force work and filter heat of owned nodes are added to the ledger. Not collective.
+template <int Dim>
+void integrate_momentum(const Vector<Dim>& body_force, bool affine, double dt, SlabGrid& grid,
+                        NodeLedger& ledger);
+
+/// Adds the work and impulse of the body force over this step on owned nodes. Call after the
+/// boundaries, only when there is a body force. Not collective.
+template <int Dim>
+void add_body_work(const Vector<Dim>& body_force, double dt, const SlabGrid& grid,
+                   NodeLedger& ledger);
+
+}  // namespace poreshock

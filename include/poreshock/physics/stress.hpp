@@ -1,0 +1,46 @@
+#pragma once
+// Constitutive update of every particle: density, rotation, strength, equation of state, artificial
+// viscosity and energy.
+
+#include "poreshock/core/fixed_point.hpp"
+#include "poreshock/particles/particles.hpp"
+#include "poreshock/scene/scene.hpp"
+#include "poreshock/transfer/step_data.hpp"
+
+namespace poreshock {
+
+/// What the update needs besides the particles.
+template <int Dim>
+struct StressSettings {
+  Thermal thermal = Thermal::conserving;
+  Viscosity viscosity;
+  bool averaging = false;
+  double cell = 0.0;               ///< m, length of the artificial viscosity
+  double cfl = 0.35;
+  Vector<Dim> grid_velocity = Vector<Dim>::Zero();
+  double inverse_energy_quantum = 1.0;
+};
+
+/// What the update reports about this rank's particles.
+struct StressReport {
+  double dt_limit = 0.0;             ///< s, largest stable next step; cfl included
+  std::int64_t bad = 0;              ///< particles with a state that is not finite or inverted
+  std::int64_t compression_guard = 0;///< particles beyond the guard of the reference curve
+  std::int64_t sound_speed_guard = 0;///< particles whose sound speed had to be floored
+  Int128 viscous_heat = 0;           ///< quanta
+};
+
+/// Advances the state over dt (numerics: incremental polar decomposition, radial return, energy from
+/// the grid's stress power with the stress of the start of the step, so that the sum of kinetic and
+/// internal energy closes). Not collective.
+template <int Dim>
+void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
+                   const StepData<Dim>& step, double dt, Particles<Dim>& particles,
+                   StressReport& report);
+
+/// Pressure, viscosity zero, and the stable step of the initial state. Not collective.
+template <int Dim>
+void initialise_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
+                       Particles<Dim>& particles, StressReport& report);
+
+}  // namespace poreshock

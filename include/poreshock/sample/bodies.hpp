@@ -1,0 +1,17 @@
+#pragma once
+// Geometry of explicit bodies and voids.
+
+#include "poreshock/scene/scene.hpp"
+
+namespace poreshock {
+
+/// True when the point lies in the closed region. dimension 2 ignores the third coordinate.
+bool contains(const Region& region, const Triple& point, int dimension);
+
+/// Centroid of the region, m.
+Triple centroid(const Region& region, int dimension);
+
+/// Area (2-D, m^2) or volume (3-D, m^3) of the region.
+double measure(const Region& region, int dimension);
+
+}  // namespace poreshock

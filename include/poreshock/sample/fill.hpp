@@ -1,0 +1,84 @@
+#pragma once
+// From a scene to particles: void placement, then a regular lattice of particles kept where there
+// is solid. Everything is a pure function of the scene, the same on every rank.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "poreshock/particles/particles.hpp"
+#include "poreshock/scene/scene.hpp"
+
+namespace poreshock {
+
+/// A generated void; y (z in 3-D) is the shock axis.
+struct Void {
+  Triple center{};      ///< m, inside the domain; images across periodic sides are implied
+  double radius = 0.0;  ///< m
+};
+
+/// What a generated sample achieved. The voids and what follows from them alone are the same on
+/// every rank; counts are those of the lattice range that was filled, until total() has summed
+/// them.
+struct SampleReport {
+  std::vector<Void> voids;
+  double geometric_void_fraction = 0.0;  ///< of the sample block: see void_fraction
+  double particle_void_fraction = 0.0;   ///< share of the block's lattice sites without a particle
+  double least_gap = 0.0;                ///< m, least surface distance between two voids (images
+                                         ///< included); negative: overlap; infinite: no pair
+  std::int64_t lattice_sites = 0;        ///< in the sample block
+  std::int64_t block_particles = 0;      ///< particles on sites of the sample block
+  std::int64_t particles = 0;            ///< in all, bodies included
+  std::int64_t islands = 0;              ///< floating pieces removed (overlapping voids)
+  std::int64_t island_particles = 0;     ///< particles removed with them
+};
+
+/// Places the voids of a random_voids sample (no voids for other kinds). Without overlap the void
+/// fraction is met to rounding: the number of voids is the one that comes nearest to it, and one
+/// common factor on all radii does the rest. The factor differs from 1 by at most 1/(4 N) for N
+/// equal discs (1/(6 N) for balls), to first order. Overlapping voids meet it to 1e-12 in 2-D and
+/// 1e-5 in 3-D, the same way. Few voids are placed by random sequential addition; where that ends,
+/// soft voids are pushed apart and then moved at random. Whole voids lie inside the block, with
+/// keep_out to the wall, to the top and to sides that are not periodic. Deterministic in the scene,
+/// independent of the cell size. Throws InputError with the reason when the target cannot be
+/// reached. Not collective.
+std::vector<Void> place_voids(const Scene& scene);
+
+/// Void fraction of the sample block taken by the voids (overlaps counted once), periodic sides
+/// respected; parts outside the block do not count. Exact to rounding for discs and for balls that
+/// do not overlap; overlapping balls to 1e-5. Not collective.
+double void_fraction(const std::vector<Void>& voids, const Scene& scene);
+
+/// A row (2-D) or plane (3-D) range of lattice sites along the shock axis, [first, last).
+struct LatticeRange {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+};
+
+/// Number of lattice layers along the shock axis: cells x particles_per_cell.
+std::int64_t lattice_layers(const Scene& scene);
+
+/// Replaces `particles` by those whose lattice layer lies in `range`, in lattice order. Sites lie
+/// at
+/// ((i + 0.5) cell / particles_per_cell); a site belongs to the last body that contains it, else to
+/// the sample block unless a generated void contains it; explicit voids empty it. Sets id (lattice
+/// index, x fastest), position, velocity (loading, frame, body, spin), mass, density rho0, grain
+/// and material, the APIC gradient of a body's spin, and all else zero. `report` counts this range:
+/// see total(). Work grows with the sites of the range and the number of voids; only for
+/// overlapping voids, whose floating islands are removed, it grows with all sites of the sample.
+/// Not collective. Throws InputError as place_voids does.
+template <int Dim>
+void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, SampleReport& report);
+
+/// The report of the whole sample from the reports of all ranks' ranges. Throws InputError on every
+/// rank when the scene makes no particle at all. Collective.
+SampleReport total(const SampleReport& report, MPI_Comm communicator);
+
+/// Plain sentences about what a sample leaves unresolved: voids of few cells, thin ligaments, radii
+/// that differ from those asked for, removed islands. `report` is that of the whole sample. Not
+/// collective.
+std::vector<std::string> sample_warnings(const Scene& scene, const SampleReport& report);
+
+}  // namespace poreshock

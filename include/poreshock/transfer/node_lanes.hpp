@@ -1,0 +1,33 @@
+#pragma once
+// Meaning of the eight numbers of a node, before and after the grid update.
+
+namespace poreshock {
+
+/// Nodal sums, from particles_to_grid to integrate_momentum.
+template <int Dim>
+struct SumLane {
+  static constexpr int mass = 0;
+  static constexpr int momentum = 1;           ///< Dim numbers
+  static constexpr int force = 1 + Dim;        ///< Dim numbers
+  static constexpr int kinetic = 1 + 2 * Dim;  ///< energy of the affine particles (APIC)
+};
+
+/// Nodal motion, from integrate_momentum to grid_to_particles.
+template <int Dim>
+struct MotionLane {
+  static constexpr int end_velocity = 0;        ///< Dim numbers
+  static constexpr int start_velocity = Dim;    ///< Dim numbers
+  static constexpr int heat = 2 * Dim;          ///< J/kg
+  static constexpr int mass = 2 * Dim + 1;      ///< until prepare_gather
+  static constexpr int kinetic = 2 * Dim + 1;   ///< J/kg, after prepare_gather
+};
+
+/// Nodal averages (averaged dilatation).
+struct AverageLane {
+  static constexpr int volume = 0;
+  static constexpr int pressure = 1;  ///< volume x (p + q), then the average
+  static constexpr int end = 2;       ///< volume x div v', then the average
+  static constexpr int mid = 3;       ///< volume x div v_mid, then the average
+};
+
+}  // namespace poreshock

@@ -1,0 +1,134 @@
+#pragma once
+// Walking particles row by row, run by run: the frame that all transfer kernels share.
+
+#include <algorithm>
+#include <vector>
+
+#include "poreshock/grid/slab_grid.hpp"
+#include "poreshock/particles/cell_order.hpp"
+#include "poreshock/particles/particles.hpp"
+#include "poreshock/transfer/shape.hpp"
+
+namespace poreshock {
+
+/// Weights of a particle along all axes.
+template <int Dim, class Spline>
+struct Stencil {
+  std::array<AxisWeights<Spline::width>, Dim> axis;
+};
+
+/// Number of nodes of a stencil.
+template <int Dim, class Spline>
+inline constexpr int stencil_nodes = Dim == 2 ? Spline::width * Spline::width
+                                              : Spline::width * Spline::width * Spline::width;
+
+/// Lowest node of the stencil cell along every axis, from row and lateral index.
+template <int Dim>
+inline std::array<int, Dim> cell_index(const GridShape& shape, int row, int lateral) {
+  if constexpr (Dim == 2) {
+    return {lateral, row};
+  } else {
+    return {lateral % shape.nodes[0], lateral / shape.nodes[0], row};
+  }
+}
+
+template <int Dim, class Spline>
+inline Stencil<Dim, Spline> stencil_at(const Particles<Dim>& particles, std::uint32_t p,
+                                       const std::array<int, Dim>& base, double inverse_cell) {
+  Stencil<Dim, Spline> result;
+  for (int a = 0; a < Dim; ++a) {
+    result.axis[a] = Spline::weights(particles.position[a][p] * inverse_cell, base[a]);
+  }
+  return result;
+}
+
+/// Offset of stencil node n in a block of node rows that starts at the cell's lateral index.
+/// Stencil nodes are numbered x fastest, shock axis slowest.
+template <int Dim, class Spline>
+inline std::ptrdiff_t node_offset(const GridShape& shape, int n) {
+  constexpr int w = Spline::width;
+  if constexpr (Dim == 2) {
+    return static_cast<std::ptrdiff_t>(n / w) * shape.row_size + n % w;
+  } else {
+    return static_cast<std::ptrdiff_t>(n / (w * w)) * shape.row_size +
+           static_cast<std::ptrdiff_t>((n / w) % w) * shape.nodes[0] + n % w;
+  }
+}
+
+/// Calls run(row, lateral, first, last) for every run of particles of one cell and one grain, rows in
+/// order, and row_end(row) after each row that has particles.
+template <int Dim, class Run, class RowEnd>
+void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const SlabGrid& grid,
+                  Run&& run, RowEnd&& row_end) {
+  const int width = grid.shape().row_size;
+  for (int row = grid.first_row(); row < grid.last_row(); ++row) {
+    const std::size_t row_cell = static_cast<std::size_t>(row - grid.first_row()) * width;
+    if (cells.start[row_cell] == cells.start[row_cell + width]) continue;
+    for (int lateral = 0; lateral < width; ++lateral) {
+      const std::uint32_t* first = cells.order.data() + cells.start[row_cell + lateral];
+      const std::uint32_t* const end = cells.order.data() + cells.start[row_cell + lateral + 1];
+      while (first != end) {
+        const std::uint32_t* last = first + 1;
+        while (last != end && particles.grain[*last] == particles.grain[*first]) ++last;
+        run(row, lateral, first, last);
+        first = last;
+      }
+    }
+    row_end(row);
+  }
+}
+
+/// Scatters to nodes: accumulate(p, stencil, sums) adds one particle to the sums of its stencil nodes;
+/// sums of a run start at +0 and are added to the row buffer, that to the grid. Not collective.
+template <int Dim, class Spline, class Accumulate>
+void scatter(const Particles<Dim>& particles, const CellOrder& cells, Accumulate&& accumulate,
+             SlabGrid& grid) {
+  const GridShape& shape = grid.shape();
+  const double inverse_cell = 1.0 / shape.cell;
+  const std::size_t block = static_cast<std::size_t>(Spline::width) * shape.row_size;
+  std::vector<Lanes> buffer(block, Lanes{});
+  grid.clear();
+  for_each_run(
+      particles, cells, grid,
+      [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
+        const auto base = cell_index<Dim>(shape, row, lateral);
+        Lanes sums[stencil_nodes<Dim, Spline>] = {};
+        for (; first != last; ++first) {
+          const auto stencil = stencil_at<Dim, Spline>(particles, *first, base, inverse_cell);
+          accumulate(*first, stencil, sums);
+        }
+        Lanes* target = buffer.data() + lateral;
+        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+          target[node_offset<Dim, Spline>(shape, n)] += sums[n];
+        }
+      },
+      [&](int row) {
+        grid.add_row(row, buffer.data());
+        std::fill(buffer.begin(), buffer.end(), Lanes{});
+      });
+}
+
+/// Gathers from nodes: visit(p, stencil, nodes) sees the stencil nodes of each particle.
+/// Nodes must be complete, periodic images filled. Not collective.
+template <int Dim, class Spline, class Visit>
+void gather(const Particles<Dim>& particles, const CellOrder& cells, const SlabGrid& grid,
+            Visit&& visit) {
+  const GridShape& shape = grid.shape();
+  const double inverse_cell = 1.0 / shape.cell;
+  for_each_run(
+      particles, cells, grid,
+      [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
+        const auto base = cell_index<Dim>(shape, row, lateral);
+        const Lanes* source = grid.row(row) + lateral;
+        Lanes nodes[stencil_nodes<Dim, Spline>];
+        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+          nodes[n] = source[node_offset<Dim, Spline>(shape, n)];
+        }
+        for (; first != last; ++first) {
+          visit(*first, stencil_at<Dim, Spline>(particles, *first, base, inverse_cell), nodes);
+        }
+      },
+      [](int) {});
+}
+
+}  // namespace poreshock

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# A run longer than one job: submits itself again with --restart latest until the run is done.
+# Submit from the top folder of poreshock, after tools/build:
+#   sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of poreshock run]
+#SBATCH --job-name=poreshock
+#SBATCH --ntasks=64
+#SBATCH --time=12:00:00
+# Two minutes before the end Slurm signals this script, which asks the ranks for a checkpoint.
+#SBATCH --signal=B:USR1@120
+set -euo pipefail
+cd "${SLURM_SUBMIT_DIR:-.}"
+source tools/stop_with_checkpoint.sh
+
+scene=${1:?usage: sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of poreshock run]}
+output=${2:?usage: sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of poreshock run]}
+
+newest_checkpoint() {
+  find "$output" -maxdepth 1 -name 'checkpoint_*.h5' 2>/dev/null | sort | tail -n 1
+}
+
+before=$(newest_checkpoint)
+restart=()
+[[ -z $before ]] || restart=(--restart latest)
+run_with_checkpoint tools/mpirun -n "$SLURM_NTASKS" build/release/poreshock run "$scene" \
+  --output "$output" ${restart[@]+"${restart[@]}"} "${@:3}"
+
+if [[ $stopped == 0 ]]; then
+  echo "The run is done."
+elif [[ $(newest_checkpoint) == "$before" ]]; then
+  echo "This job wrote no checkpoint, so the next one would not get further: give each job more time." >&2
+  exit 1
+else
+  # Options given to sbatch on the command line are not kept, so the important ones are passed on.
+  sbatch --ntasks="$SLURM_NTASKS" --time="$(squeue --noheader --jobs="$SLURM_JOB_ID" --format=%l)" \
+    --partition="$SLURM_JOB_PARTITION" jobscripts/slurm_chain.sh "$@"
+fi

@@ -1,0 +1,46 @@
+#include "poreshock/material/material.hpp"
+
+namespace poreshock {
+
+Material make_material(const MaterialParameters& p) {
+  J2MieGruneisen m;
+  m.eos = make_mie_gruneisen(p.density, p.c0, p.lambda, p.gamma, p.cv, p.T0);
+  m.strength.shear = p.young / (2.0 * (1.0 + p.poisson));
+  m.strength.yield = p.yield;
+  m.strength.isotropic = (1.0 - p.kinematic_share) * p.hardening;
+  m.strength.kinematic = p.kinematic_share * p.hardening;
+  m.temperature = make_temperature_curve(m.eos);
+  m.plastic_heat = p.plastic_heat;
+  m.spall = p.spall.value_or(0.0);
+  return m;
+}
+
+double temperature(const Material& material, Thermal thermal, const ThermalState& state) {
+  return std::visit(
+      [&](const auto& m) {
+        const double eta = 1.0 - m.eos.density / state.density;
+        const double reference = reference_temperature(m.eos, m.temperature, eta);
+        if (thermal == Thermal::paper) return reference + state.plastic_work / m.eos.cv;
+        const double stored = m.deviatoric_energy(state.deviator_square, state.density) +
+                              m.back_stress_energy(state.back_stress_square, state.density);
+        const double thermal_energy =
+            state.internal_energy - stored - reference_point(m.eos, eta).energy;
+        return reference + thermal_energy / m.eos.cv;
+      },
+      material);
+}
+
+double longitudinal_sound_speed(const Material& material) {
+  return std::visit(
+      [](const auto& m) {
+        const double bulk = conserving_state(m.eos, m.eos.density, 0.0).sound_speed2;
+        return std::sqrt(bulk + 4.0 * m.strength.shear / (3.0 * m.eos.density));
+      },
+      material);
+}
+
+double initial_density(const Material& material) {
+  return std::visit([](const auto& m) { return m.eos.density; }, material);
+}
+
+}  // namespace poreshock

@@ -1,0 +1,254 @@
+// Deposit of particles into a map, in three parts: overlaps of squares and pixels, sums of rows
+// sent to their owners, means and the ghost row.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/morphology/pixel_map.hpp"
+#include "row_sums.hpp"
+#include "squares.hpp"
+
+// Range of the sums. A value is an integer |v| <= 2^31, so |sum of W v| <= (sum of W) 2^31, which
+// stays below 2^63 as long as sum of W < 2^32, that is 2^14 typical densities in one pixel. One
+// contribution has W <= 2^24 (density held to 64 typical densities), so the sum of W itself is
+// right for any number of particles below 2^39, and looking at it afterwards finds every overflow.
+// Sums are unsigned: arithmetic modulo 2^64 is defined, and right whenever the result is in range.
+
+namespace poreshock {
+namespace {
+
+constexpr std::uint64_t weight_sum_limit = std::uint64_t{1} << 32;
+
+/// Adds one particle to the sums, along x innermost.
+template <int Dim>
+void add_square(const std::array<Overlaps, Dim>& overlaps, int width, double density,
+                std::span<const std::int64_t> rounded, RowSums& sums) {
+  const Overlaps& x = overlaps[0];
+  const Overlaps& last = overlaps[Dim - 1];
+  const std::size_t middle = Dim == 3 ? overlaps[1].pixel.size() : 1;
+  for (std::size_t r = 0; r < last.pixel.size(); ++r) {
+    std::uint64_t* row = sums.row(last.pixel[r]);
+    for (std::size_t m = 0; m < middle; ++m) {
+      const double across = Dim == 3 ? last.length[r] * overlaps[1].length[m] : last.length[r];
+      const std::size_t start = Dim == 3 ? static_cast<std::size_t>(overlaps[1].pixel[m]) *
+                                               static_cast<std::size_t>(width)
+                                         : 0;
+      for (std::size_t i = 0; i < x.pixel.size(); ++i) {
+        const double overlap = x.length[i] * across * weight_unit;
+        const std::int64_t weight = std::llrint(overlap * density);
+        std::uint64_t* pixel =
+            row + (start + static_cast<std::size_t>(x.pixel[i])) * sums.components;
+        pixel[0] += static_cast<std::uint64_t>(std::llrint(overlap));
+        pixel[1] += static_cast<std::uint64_t>(weight);
+        for (std::size_t k = 0; k < rounded.size(); ++k) {
+          pixel[2 + k] += static_cast<std::uint64_t>(weight * rounded[k]);
+        }
+      }
+    }
+  }
+}
+
+/// Rows of the map that the particles of this rank touch.
+template <int Dim>
+RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
+                  const PixelScales& scales, const PixelGrid<Dim>& grid) {
+  const int rows = grid.layout().pixels[Dim - 1];
+  double low = rows;
+  double high = 0.0;
+  Counters ignored;
+  Square<Dim> square;
+  for (std::size_t i = 0; i < particles.mass.size(); ++i) {
+    if (make_square(particles, i, scales, grid.layout().pixel_size, square, ignored) ==
+        SquareKind::skipped) {
+      continue;
+    }
+    low = std::min(low, square.sides[Dim - 1].low);
+    high = std::max(high, square.sides[Dim - 1].high);
+  }
+  const int first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(rows)));
+  const int end = static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(rows)));
+  return RowSums(first, std::max(end - first, 0), grid.row_size(), components);
+}
+
+template <int Dim>
+RowSums sum_particles(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
+                      const PixelScales& scales, const PixelGrid<Dim>& grid, Counters& counters) {
+  const PixelLayout<Dim>& layout = grid.layout();
+  RowSums band = make_band(particles, 2 + values.size(), scales, grid);
+  std::vector<std::int64_t> rounded(values.size());
+  std::array<Overlaps, Dim> overlaps;
+  Square<Dim> square;
+  for (std::size_t i = 0; i < particles.mass.size(); ++i) {
+    if (make_square(particles, i, scales, layout.pixel_size, square, counters) ==
+        SquareKind::skipped) {
+      continue;
+    }
+    round_values(values, i, rounded.data(), counters);
+    for (std::size_t axis = 0; axis < Dim; ++axis) {
+      const bool periodic = axis + 1 < Dim && layout.periodic[std::min<std::size_t>(axis, Dim - 2)];
+      find_overlaps(square.sides[axis], layout.pixels[axis], periodic, overlaps[axis]);
+    }
+    add_square<Dim>(overlaps, layout.pixels[0], square.density, rounded, band);
+  }
+  return band;
+}
+
+void check_columns(std::size_t found, std::size_t expected, const char* name) {
+  if (found == expected) return;
+  throw InputError("the deposit got " + std::to_string(found) + " entries of " + name + " for " +
+                   std::to_string(expected) + " particles; every column has one per particle.");
+}
+
+void check_positive(double value, const char* name) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw InputError("the deposit got " + std::to_string(value) + " as its " + name +
+                   "; it must be positive and finite.");
+}
+
+template <int Dim>
+void check_input(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
+                 const PixelScales& scales) {
+  const std::size_t count = particles.mass.size();
+  if (values.empty()) throw InputError("the deposit got no values; it needs at least one field.");
+  check_columns(particles.density.size(), count, "density");
+  for (const auto& column : particles.position) check_columns(column.size(), count, "position");
+  for (const PixelValues& entry : values) {
+    check_columns(entry.value.size(), count, "a value");
+    check_positive(entry.scale, "value scale");
+  }
+  check_positive(scales.density, "density scale (kg/m^3)");
+  check_positive(scales.max_side, "largest particle side (m)");
+}
+
+/// Adds the counters over the ranks and stops all of them when a sum may have overflowed.
+template <int Dim>
+void share_counters(const Counters& counters, const RowSums& sums, MPI_Comm communicator,
+                    PixelField<Dim>& map) {
+  std::int64_t piled = 0;
+  for (std::size_t p = 1; p < sums.data.size(); p += sums.components) {
+    piled += sums.data[p] >= weight_sum_limit ? 1 : 0;
+  }
+  std::vector<std::int64_t> shared = {counters.capped, counters.clamped, counters.skipped, piled};
+  sum(shared, communicator);
+  map.capped = shared[0];
+  map.clamped = shared[1];
+  map.skipped = shared[2];
+  if (shared[3] == 0) return;
+  throw StateError("particles pile up in " + std::to_string(shared[3]) +
+                   " pixels of the map: more than 16384 typical densities in one pixel. Check the "
+                   "positions and densities of the particles, and the density scale.");
+}
+
+/// Means of the owned pixels and NaN where less than half of a pixel is covered.
+template <int Dim>
+void take_means(const RowSums& sums, std::span<const PixelValues> values, PixelField<Dim>& map) {
+  const std::size_t pixels = sums.data.size() / sums.components;
+  map.coverage.resize(pixels);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const std::uint64_t* pixel = sums.data.data() + p * sums.components;
+    map.coverage[p] = static_cast<std::int64_t>(pixel[0]);
+    const auto weight = static_cast<std::int64_t>(pixel[1]);
+    // A covered pixel whose weight is rounded to nothing has no mean.
+    const bool solid = 2 * map.coverage[p] >= full_coverage && weight > 0;
+    map.solid[p] = solid ? 1 : 0;
+    if (!solid) continue;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      // Whole part and remainder apart: a uniform field comes out uniform to the last bit.
+      const auto total = static_cast<std::int64_t>(pixel[2 + k]);
+      const std::int64_t whole = total / weight;
+      const double mean = static_cast<double>(whole) +
+                          static_cast<double>(total % weight) / static_cast<double>(weight);
+      map.values[k][p] = mean * (values[k].scale / value_unit);
+    }
+  }
+}
+
+/// Borrows a global and a local vector from a DM and gives them back.
+class BorrowedVectors {
+ public:
+  explicit BorrowedVectors(DM dm) : dm_(dm) {
+    check_petsc(DMGetGlobalVector(dm_, &global), "DMGetGlobalVector");
+    check_petsc(DMGetLocalVector(dm_, &local), "DMGetLocalVector");
+  }
+  ~BorrowedVectors() {
+    DMRestoreLocalVector(dm_, &local);
+    DMRestoreGlobalVector(dm_, &global);
+  }
+  BorrowedVectors(const BorrowedVectors&) = delete;
+  BorrowedVectors& operator=(const BorrowedVectors&) = delete;
+
+  Vec global = nullptr;
+  Vec local = nullptr;
+
+ private:
+  DM dm_;
+};
+
+/// Fills the row above the owned ones from the upper neighbour. Collective.
+template <int Dim>
+void fetch_ghost_row(const PixelGrid<Dim>& grid, std::vector<double>& values) {
+  if (size(grid.communicator()) == 1) return;
+  const std::size_t row = grid.row_size();
+  const std::size_t owned = static_cast<std::size_t>(grid.rows()) * row;
+  const BorrowedVectors vectors(grid.dm());
+  PetscScalar* target = nullptr;
+  check_petsc(VecGetArrayWrite(vectors.global, &target), "VecGetArrayWrite");
+  std::copy_n(values.begin(), owned, target);
+  check_petsc(VecRestoreArrayWrite(vectors.global, &target), "VecRestoreArrayWrite");
+  check_petsc(DMGlobalToLocal(grid.dm(), vectors.global, INSERT_VALUES, vectors.local),
+              "DMGlobalToLocal");
+  if (grid.first_row() + grid.rows() == grid.layout().pixels[Dim - 1]) return;
+  // A local vector starts with the ghost row of the lower neighbour, where there is one.
+  const std::size_t below = grid.first_row() > 0 ? row : 0;
+  const PetscScalar* source = nullptr;
+  check_petsc(VecGetArrayRead(vectors.local, &source), "VecGetArrayRead");
+  std::copy_n(source + below + owned, row, values.begin() + static_cast<std::ptrdiff_t>(owned));
+  check_petsc(VecRestoreArrayRead(vectors.local, &source), "VecRestoreArrayRead");
+}
+
+/// Empty map on the rows of this rank: void everywhere.
+template <int Dim>
+PixelField<Dim> make_map(const PixelGrid<Dim>& grid, std::size_t fields) {
+  PixelField<Dim> map;
+  map.layout = grid.layout();
+  map.rows = grid.rows();
+  map.first = grid.first_row() == 0;
+  map.last = grid.first_row() + grid.rows() == grid.layout().pixels[Dim - 1];
+  const std::size_t size = (static_cast<std::size_t>(map.rows) + 1) * grid.row_size();
+  map.values.assign(fields, std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()));
+  map.solid.assign(size, 0);
+  return map;
+}
+
+}  // namespace
+
+template <int Dim>
+PixelField<Dim> deposit(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
+                        const PixelScales& scales, const PixelGrid<Dim>& grid) {
+  check_input(particles, values, scales);
+  Counters counters;
+  const RowSums band = sum_particles(particles, values, scales, grid, counters);
+  const RowSums owned = send_to_owners(band, grid.row_starts(), grid.communicator());
+  PixelField<Dim> map = make_map(grid, values.size());
+  share_counters(counters, owned, grid.communicator(), map);
+  take_means(owned, values, map);
+
+  // The mask travels as the NaN of void pixels: means are finite, whatever the particles hold.
+  for (std::vector<double>& field : map.values) fetch_ghost_row(grid, field);
+  const std::size_t start = static_cast<std::size_t>(map.rows) * grid.row_size();
+  for (std::size_t p = start; p < map.solid.size(); ++p) {
+    map.solid[p] = std::isnan(map.values[0][p]) ? 0 : 1;
+  }
+  return map;
+}
+
+template PixelField<2> deposit<2>(const PixelSources<2>&, std::span<const PixelValues>,
+                                  const PixelScales&, const PixelGrid<2>&);
+template PixelField<3> deposit<3>(const PixelSources<3>&, std::span<const PixelValues>,
+                                  const PixelScales&, const PixelGrid<3>&);
+
+}  // namespace poreshock

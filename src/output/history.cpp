@@ -1,0 +1,114 @@
+#include "poreshock/output/history.hpp"
+
+#include <fcntl.h>
+
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "poreshock/output/rank_zero.hpp"
+
+namespace poreshock {
+
+namespace {
+
+void add(double value, std::string& line) {
+  char text[64];
+  const auto end =
+      std::to_chars(text, text + sizeof(text), value, std::chars_format::general, 17).ptr;
+  line.append(line.empty() ? "" : ",").append(text, end);
+}
+
+void add(std::int64_t value, std::string& line) {
+  line += (line.empty() ? "" : ",") + std::to_string(value);
+}
+
+/// Step of a complete row; nothing when it cannot be read.
+std::optional<std::int64_t> row_step(const std::string& line) {
+  const std::size_t first = line.find(',');
+  if (first == std::string::npos) return std::nullopt;
+  std::int64_t step = 0;
+  const auto result = std::from_chars(line.data() + first + 1, line.data() + line.size(), step);
+  if (result.ec != std::errc{} || *result.ptr != ',') return std::nullopt;
+  return step;
+}
+
+/// The rows to go on from: header and complete rows up to `last_step`.
+std::string kept_rows(const std::string& path, int dimension, std::int64_t last_step) {
+  const std::string text = read_text(path);
+  std::istringstream in(text);
+  std::string line;
+  const std::string header = history_header(dimension);
+  if (!std::getline(in, line) || line != header) {
+    throw InputError(path + ":1: cannot be continued, its columns are not those of a " +
+                     std::to_string(dimension) + "-D run of this program; move it away");
+  }
+  std::string kept = header + '\n';
+  // A row without an end of line was cut off when the run was killed.
+  while (std::getline(in, line) && !in.eof()) {
+    const auto step = row_step(line);
+    if (step && *step <= last_step) kept += line + '\n';
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string history_header(int dimension) {
+  const bool plane = dimension == 2;
+  const std::string energy = plane ? " [J/m]" : " [J]";
+  const std::string momentum = plane ? " [kg/s]" : " [kg m/s]";
+  std::string header = "time [s],step [-],dt [s],particles [-]";
+  for (const char* name : {"kinetic", "internal", "escaped", "wall_work", "body_work", "total",
+                           "elastic", "plastic_work", "viscous_heat", "filter_heat", "wall_heat",
+                           "contact_heat", "friction_heat", "conduction"}) {
+    header += "," + std::string(name) + energy;
+  }
+  header += ",momentum_x" + momentum + ",momentum_y" + momentum;
+  if (!plane) header += ",momentum_z" + momentum;
+  return header + ",guards [-]";
+}
+
+std::string history_line(const HistoryRow& row, int dimension) {
+  std::string line;
+  add(row.time, line);
+  add(row.step, line);
+  add(row.dt, line);
+  add(row.particles, line);
+  for (const double value :
+       {row.kinetic, row.internal, row.escaped, row.wall_work, row.body_work, row.total,
+        row.elastic, row.plastic_work, row.viscous_heat, row.filter_heat, row.wall_heat,
+        row.contact_heat, row.friction_heat, row.conduction}) {
+    add(value, line);
+  }
+  for (int a = 0; a < dimension; ++a) add(row.momentum[static_cast<std::size_t>(a)], line);
+  add(row.guards, line);
+  return line;
+}
+
+HistoryWriter::HistoryWriter(const std::string& path, int dimension, MPI_Comm communicator,
+                             std::optional<std::int64_t> restart_step)
+    : dimension_(dimension), communicator_(communicator) {
+  on_rank_zero(communicator_, [&] {
+    if (restart_step && std::filesystem::exists(path)) {
+      write_text(path, kept_rows(path, dimension, *restart_step));
+      file_ = std::make_unique<FileDescriptor>(path, O_WRONLY);
+      end_ = file_->size();
+    } else {
+      file_ = std::make_unique<FileDescriptor>(path, O_WRONLY | O_CREAT | O_TRUNC);
+      append(history_header(dimension));
+    }
+  });
+}
+
+void HistoryWriter::write(const HistoryRow& row) {
+  on_rank_zero(communicator_, [&] { append(history_line(row, dimension_)); });
+}
+
+void HistoryWriter::append(const std::string& line) {
+  const std::string text = line + '\n';
+  file_->write(end_, reinterpret_cast<const std::byte*>(text.data()), text.size());
+  end_ += text.size();
+}
+
+}  // namespace poreshock

@@ -1,0 +1,175 @@
+#include "poreshock/output/snapshot.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/output/posix_file.hpp"
+#include "poreshock/particles/derived.hpp"
+#include "root_attributes.hpp"
+
+namespace poreshock {
+
+namespace {
+
+template <int Dim>
+struct Source {
+  const SnapshotInput<Dim>& input;
+  std::vector<double> temperature;
+  double affine_inertia;  ///< m^2, D of APIC
+};
+
+/// One dataset of floating-point numbers: component c of particle i.
+template <int Dim>
+struct Field {
+  std::string_view name;
+  int components;
+  std::string_view unit;
+  double (*value)(const Source<Dim>& source, std::size_t i, std::size_t c);
+};
+
+template <int Dim>
+double kinetic_energy(const Source<Dim>& source, std::size_t i) {
+  const Particles<Dim>& p = source.input.particles;
+  double velocity = 0.0;
+  for (const auto& component : p.velocity) velocity += component[i] * component[i];
+  double gradient = 0.0;
+  if (p.options.affine) {
+    for (const auto& component : p.affine) gradient += component[i] * component[i];
+  }
+  return 0.5 * velocity + 0.5 * source.affine_inertia * gradient;
+}
+
+template <int Dim>
+auto fields() {
+  using S = const Source<Dim>&;
+  using N = std::size_t;
+  return std::array<Field<Dim>, 11>{{
+      {"position", Dim, "m",
+       [](S s, N i, N c) {
+         return s.input.particles.position[c][i] + s.input.shift[static_cast<Eigen::Index>(c)];
+       }},
+      {"velocity", Dim, "m/s", [](S s, N i, N c) { return s.input.particles.velocity[c][i]; }},
+      {"mass", 1, Dim == 2 ? "kg/m" : "kg", [](S s, N i, N) { return s.input.particles.mass[i]; }},
+      {"density", 1, "kg/m^3", [](S s, N i, N) { return s.input.particles.density[i]; }},
+      {"pressure", 1, "Pa", [](S s, N i, N) { return s.input.particles.pressure[i]; }},
+      {"stress", symmetric_size<Dim>, "Pa",
+       [](S s, N i, N c) {
+         const Particles<Dim>& p = s.input.particles;
+         return p.deviator[c][i] - (c < 3 ? p.pressure[i] : 0.0);
+       }},
+      {"temperature", 1, "K", [](S s, N i, N) { return s.temperature[i]; }},
+      {"plastic_strain", 1, "1", [](S s, N i, N) { return s.input.particles.plastic_strain[i]; }},
+      {"plastic_work", 1, "J/kg", [](S s, N i, N) { return s.input.particles.plastic_work[i]; }},
+      {"internal_energy", 1, "J/kg",
+       [](S s, N i, N) { return s.input.particles.internal_energy[i]; }},
+      {"kinetic_energy", 1, "J/kg", [](S s, N i, N) { return kinetic_energy(s, i); }},
+  }};
+}
+
+/// Whether a dataset is written; a reader needs the id and the position of every snapshot.
+bool wanted(const Scene& scene, std::string_view name) {
+  const std::vector<std::string>& list = scene.output.fields;
+  return list.empty() || name == "id" || name == "position" ||
+         std::find(list.begin(), list.end(), name) != list.end();
+}
+
+template <int Dim>
+FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int64_t floored) {
+  FileSpec spec;
+  spec.attributes = root_attributes("snapshot", input.time, input.step, input.scene_text);
+  spec.attributes.push_back({"record", input.record});
+  spec.attributes.push_back({"dimension", std::int64_t{Dim}});
+  spec.attributes.push_back(
+      {"thermal", input.scene.thermal == Thermal::paper ? "paper" : "conserving"});
+  const auto add = [&](std::string_view name, NumberType type, int components,
+                       std::string_view unit) {
+    if (!wanted(input.scene, name)) return;
+    std::vector<std::uint64_t> shape = {rows};
+    if (components > 1) shape.push_back(static_cast<std::uint64_t>(components));
+    spec.datasets.push_back(
+        {"/particles/" + std::string(name), type, shape, std::string(unit), {}});
+    if (name == "temperature") spec.datasets.back().attributes = {{"set_to_floor", floored}};
+  };
+  add("id", NumberType::int64, 1, "1");
+  add("grain", NumberType::int32, 1, "1");
+  add("material", NumberType::int32, 1, "1");
+  const bool single = input.scene.output.precision == Precision::single_precision;
+  for (const auto& field : fields<Dim>()) {
+    add(field.name, single ? NumberType::float32 : NumberType::float64, field.components,
+        field.unit);
+  }
+  return spec;
+}
+
+template <class T, int Dim>
+void write_field(const Field<Dim>& field, const Source<Dim>& source, std::uint64_t first_row,
+                 Hdf5File& file) {
+  const std::size_t count = source.input.particles.size();
+  const auto components = static_cast<std::size_t>(field.components);
+  std::vector<T> values(count * components);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < components; ++c) {
+      values[i * components + c] = static_cast<T>(field.value(source, i, c));
+    }
+  }
+  file.write<T>("/particles/" + std::string(field.name), first_row, values);
+}
+
+double affine_inertia(const Scene& scene) {
+  const double cell2 = scene.domain.cell * scene.domain.cell;
+  return scene.transfer.shape == ShapeFunction::cubic ? cell2 / 3.0 : cell2 / 4.0;
+}
+
+}  // namespace
+
+std::vector<std::string_view> snapshot_fields() {
+  std::vector<std::string_view> names = {"id", "grain", "material"};
+  for (const auto& field : fields<2>()) names.push_back(field.name);
+  return names;
+}
+
+std::string snapshot_name(std::int64_t record) {
+  return numbered_name("snapshot_", record, 6, ".h5");
+}
+
+template <int Dim>
+std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& input,
+                            MPI_Comm communicator) {
+  const Particles<Dim>& particles = input.particles;
+  Source<Dim> source{input, {}, affine_inertia(input.scene)};
+  std::int64_t floored = 0;
+  if (wanted(input.scene, "temperature")) {
+    floored = sum(derive_field("temperature", particles, input.materials, input.scene.thermal,
+                               source.temperature),
+                  communicator);
+  }
+  const RowRange rows = rows_in_rank_order(particles.size(), communicator);
+  Hdf5File file =
+      Hdf5File::create(path, file_spec(input, rows.total, floored), communicator, Replace::yes);
+  const auto write_integers = [&](std::string_view name, const auto& column) {
+    using T = typename std::remove_cvref_t<decltype(column)>::value_type;
+    if (!wanted(input.scene, name)) return;
+    file.write<T>("/particles/" + std::string(name), rows.first, column);
+  };
+  write_integers("id", particles.id);
+  write_integers("grain", particles.grain);
+  write_integers("material", particles.material);
+  for (const auto& field : fields<Dim>()) {
+    if (!wanted(input.scene, field.name)) continue;
+    if (input.scene.output.precision == Precision::single_precision) {
+      write_field<float>(field, source, rows.first, file);
+    } else {
+      write_field<double>(field, source, rows.first, file);
+    }
+  }
+  file.finish();
+  return floored;
+}
+
+template std::int64_t write_snapshot<2>(const std::string&, const SnapshotInput<2>&, MPI_Comm);
+template std::int64_t write_snapshot<3>(const std::string&, const SnapshotInput<3>&, MPI_Comm);
+
+}  // namespace poreshock

@@ -1,0 +1,65 @@
+#include "poreshock/particles/particles.hpp"
+
+#include <cstring>
+
+namespace poreshock {
+
+template <int Dim>
+void resize(Particles<Dim>& particles, std::size_t count) {
+  for_each_column(particles, [&](std::string_view, int, auto& column) { column.resize(count); });
+}
+
+template <int Dim>
+void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles) {
+  for_each_column(particles, [&](std::string_view, int, auto& column) {
+    auto sorted = std::remove_reference_t<decltype(column)>(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
+    column.swap(sorted);
+  });
+}
+
+template <int Dim>
+std::size_t bytes_per_particle(const Particles<Dim>& particles) {
+  std::size_t bytes = 0;
+  for_each_column(particles,
+                  [&](std::string_view, int, const auto& column) { bytes += sizeof(column[0]); });
+  return bytes;
+}
+
+template <int Dim>
+void pack(const Particles<Dim>& source, const std::vector<std::uint32_t>& indices,
+          std::vector<std::byte>& buffer) {
+  std::size_t at = buffer.size();
+  buffer.resize(at + indices.size() * bytes_per_particle(source));
+  for_each_column(source, [&](std::string_view, int, const auto& column) {
+    for (const std::uint32_t i : indices) {
+      std::memcpy(buffer.data() + at, &column[i], sizeof(column[i]));
+      at += sizeof(column[i]);
+    }
+  });
+}
+
+template <int Dim>
+void unpack(const std::byte* buffer, std::size_t count, Particles<Dim>& particles) {
+  const std::size_t before = particles.size();
+  resize(particles, before + count);
+  for_each_column(particles, [&](std::string_view, int, auto& column) {
+    std::memcpy(column.data() + before, buffer, count * sizeof(column[0]));
+    buffer += count * sizeof(column[0]);
+  });
+}
+
+template void resize<2>(Particles<2>&, std::size_t);
+template void resize<3>(Particles<3>&, std::size_t);
+template void reorder<2>(const std::vector<std::uint32_t>&, Particles<2>&);
+template void reorder<3>(const std::vector<std::uint32_t>&, Particles<3>&);
+template std::size_t bytes_per_particle<2>(const Particles<2>&);
+template std::size_t bytes_per_particle<3>(const Particles<3>&);
+template void pack<2>(const Particles<2>&, const std::vector<std::uint32_t>&,
+                      std::vector<std::byte>&);
+template void pack<3>(const Particles<3>&, const std::vector<std::uint32_t>&,
+                      std::vector<std::byte>&);
+template void unpack<2>(const std::byte*, std::size_t, Particles<2>&);
+template void unpack<3>(const std::byte*, std::size_t, Particles<3>&);
+
+}  // namespace poreshock

@@ -1,0 +1,206 @@
+#include "poreshock/physics/boundary.hpp"
+
+#include <array>
+
+#include "poreshock/transfer/node_lanes.hpp"
+
+namespace poreshock {
+
+namespace {
+
+enum class Place { inside, on_plane, mirrored };
+
+/// Where a node index lies with respect to the mirror planes of one axis, and its image.
+struct AxisPlace {
+  Place place = Place::inside;
+  int image = 0;       ///< index of the mirror image
+  int inward = 0;      ///< +1 at the low plane, -1 at the high one
+  SideKind kind = SideKind::free;
+};
+
+bool mirrors(SideKind kind) { return kind == SideKind::wall || kind == SideKind::symmetry; }
+
+/// The planes lie at node 1 and node count - 2; one row of nodes beyond each is in use.
+AxisPlace axis_place(int index, int count, SideKind low, SideKind high) {
+  if (mirrors(low) && index <= 2) {
+    return {index == 1 ? Place::on_plane : Place::mirrored, 2 - index, 1, low};
+  }
+  if (mirrors(high) && index >= count - 3) {
+    return {index == count - 2 ? Place::on_plane : Place::mirrored, 2 * (count - 2) - index, -1,
+            high};
+  }
+  return {};
+}
+
+/// One set of mirror nodes: up to 2^Dim members with the signs that map their velocities onto the
+/// first one's.
+template <int Dim>
+struct MirrorSet {
+  struct Member {
+    Lanes* node;
+    std::array<double, Dim> sign;
+    bool owned;
+  };
+  std::array<Member, 1 << Dim> member;
+  int size = 0;
+  std::array<bool, Dim> on_plane{};
+  std::array<AxisPlace, Dim> place;
+};
+
+template <int Dim>
+MirrorSet<Dim> mirror_set(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim>& active,
+                          const std::array<int, Dim>& index, SlabGrid& grid) {
+  MirrorSet<Dim> set;
+  set.place = place;
+  for (int flips = 0; flips < (1 << Dim); ++flips) {
+    std::array<int, Dim> at = index;
+    std::array<double, Dim> sign;
+    sign.fill(1.0);
+    bool valid = true;
+    for (int a = 0; a < Dim; ++a) {
+      set.on_plane[a] = active[a] && place[a].place == Place::on_plane;
+      if ((flips >> a & 1) == 0) continue;
+      valid = valid && active[a] && place[a].place == Place::mirrored;
+      at[a] = place[a].image;
+      sign[a] = -1.0;
+    }
+    if (!valid) continue;
+    std::ptrdiff_t lateral = at[0];
+    if constexpr (Dim == 3) lateral += static_cast<std::ptrdiff_t>(at[1]) * grid.shape().nodes[0];
+    set.member[set.size++] = {grid.row(at[Dim - 1]) + lateral, sign, at[Dim - 1] < grid.last_row()};
+  }
+  return set;
+}
+
+/// Mass-weighted mean of the members' velocities relative to the planes, mapped onto the first one.
+template <int Dim>
+std::array<double, Dim> symmetric_velocity(const MirrorSet<Dim>& set, const Vector<Dim>& plane,
+                                           double& mass) {
+  using Motion = MotionLane<Dim>;
+  std::array<double, Dim> momentum{};
+  mass = 0.0;
+  for (int k = 0; k < set.size; ++k) {
+    const Lanes& node = *set.member[k].node;
+    mass += node[Motion::mass];
+    for (int a = 0; a < Dim; ++a) {
+      momentum[a] += set.member[k].sign[a] * node[Motion::mass] *
+                     (node[Motion::end_velocity + a] - plane[a]);
+    }
+  }
+  std::array<double, Dim> velocity{};
+  for (int a = 0; a < Dim; ++a) {
+    velocity[a] = mass > 0.0 && !set.on_plane[a] ? momentum[a] / mass : 0.0;
+  }
+  return velocity;
+}
+
+/// Impulse on the members along axis a, positive into the domain.
+template <int Dim>
+double inward_impulse(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity,
+                      const Vector<Dim>& plane, int a) {
+  using Motion = MotionLane<Dim>;
+  double impulse = 0.0;
+  for (int k = 0; k < set.size; ++k) {
+    const Lanes& node = *set.member[k].node;
+    impulse += node[Motion::mass] * (set.member[k].sign[a] * velocity[a] + plane[a] -
+                                     node[Motion::end_velocity + a]);
+  }
+  return impulse * set.place[a].inward;
+}
+
+template <int Dim>
+void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity, double mass,
+            const Vector<Dim>& plane, NodeLedger& ledger) {
+  using Motion = MotionLane<Dim>;
+  double heat = 0.0;
+  for (int k = 0; k < set.size; ++k) {
+    Lanes& node = *set.member[k].node;
+    double work = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      const double end = set.member[k].sign[a] * velocity[a] + plane[a];
+      const double impulse = node[Motion::mass] * (end - node[Motion::end_velocity + a]);
+      node[Motion::end_velocity + a] = end;
+      const double middle = 0.5 * (node[Motion::start_velocity + a] + end);
+      heat -= impulse * (middle - plane[a]);
+      work += impulse * plane[a];
+      if (set.member[k].owned) {
+        ledger.wall_impulse[a] += quantise(impulse, ledger.inverse_momentum_quantum);
+      }
+    }
+    if (set.member[k].owned) ledger.wall_work += quantise(work, ledger.inverse_energy_quantum);
+  }
+  const double per_mass = heat / mass;
+  for (int k = 0; k < set.size; ++k) {
+    Lanes& node = *set.member[k].node;
+    node[Motion::heat] += per_mass;
+    if (set.member[k].owned) {
+      ledger.wall_heat += quantise(node[Motion::mass] * per_mass, ledger.inverse_energy_quantum);
+    }
+  }
+}
+
+/// Projects one set; where a wall would pull, its axis is given up and both halves are tried without.
+template <int Dim>
+void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim>& active,
+             const std::array<int, Dim>& index, const Vector<Dim>& plane, SlabGrid& grid,
+             NodeLedger& ledger) {
+  const MirrorSet<Dim> set = mirror_set<Dim>(place, active, index, grid);
+  double mass = 0.0;
+  const std::array<double, Dim> velocity = symmetric_velocity<Dim>(set, plane, mass);
+  if (!(mass > 0.0)) return;
+  for (int a = Dim - 1; a >= 0; --a) {
+    if (!active[a] || place[a].kind != SideKind::wall) continue;
+    if (inward_impulse<Dim>(set, velocity, plane, a) >= 0.0) continue;
+    std::array<bool, Dim> rest = active;
+    rest[a] = false;
+    bool any = false;
+    for (int b = 0; b < Dim; ++b) any = any || rest[b];
+    if (!any) return;
+    project<Dim>(place, rest, index, plane, grid, ledger);
+    if (place[a].place == Place::mirrored) {
+      std::array<int, Dim> other = index;
+      other[a] = place[a].image;
+      project<Dim>(place, rest, other, plane, grid, ledger);
+    }
+    return;
+  }
+  impose<Dim>(set, velocity, mass, plane, ledger);
+}
+
+}  // namespace
+
+template <int Dim>
+void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity, SlabGrid& grid,
+                      NodeLedger& ledger) {
+  const GridShape& shape = grid.shape();
+  const bool sides = mirrors(boundary.lateral[0]) || (Dim == 3 && mirrors(boundary.lateral[1]));
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    if (!sides && row > 2 && row < shape.rows - 3) continue;
+    for (int lateral = 0; lateral < shape.row_size; ++lateral) {
+      std::array<int, Dim> index;
+      index[0] = lateral % shape.nodes[0];
+      if constexpr (Dim == 3) index[1] = lateral / shape.nodes[0];
+      index[Dim - 1] = row;
+      std::array<AxisPlace, Dim> place;
+      std::array<bool, Dim> active{};
+      bool any = false, original = true;
+      for (int a = 0; a < Dim; ++a) {
+        const bool shock_axis = a == Dim - 1;
+        const SideKind low = shock_axis ? boundary.low.kind : boundary.lateral[a];
+        const SideKind high = shock_axis ? boundary.high.kind : boundary.lateral[a];
+        place[a] = axis_place(index[a], shape.nodes[a], low, high);
+        active[a] = place[a].place != Place::inside;
+        any = any || active[a];
+        // Each set is handled once, from its member inside the domain.
+        const bool beyond = index[a] == 0 || index[a] == shape.nodes[a] - 1;
+        original = original && !(active[a] && beyond);
+      }
+      if (any && original) project<Dim>(place, active, index, grid_velocity, grid, ledger);
+    }
+  }
+}
+
+template void apply_boundaries<2>(const Boundary&, const Vector<2>&, SlabGrid&, NodeLedger&);
+template void apply_boundaries<3>(const Boundary&, const Vector<3>&, SlabGrid&, NodeLedger&);
+
+}  // namespace poreshock

@@ -1,0 +1,140 @@
+#include "poreshock/sample/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "block.hpp"
+#include "poreshock/core/error.hpp"
+
+namespace poreshock {
+namespace {
+
+double squared_radius(const Region& region, const Triple& point, int dimension) {
+  double square = 0.0;
+  for (int axis = 0; axis < dimension; ++axis) {
+    const double d = point[axis] - region.center[axis];
+    square += d * d;
+  }
+  return square;
+}
+
+/// Twice the signed area of the triangle a b p.
+double turn(const Triple& a, const Triple& b, const Triple& p) {
+  return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+bool on_edge(const Triple& a, const Triple& b, const Triple& p) {
+  const bool within = p[0] >= std::min(a[0], b[0]) && p[0] <= std::max(a[0], b[0]) &&
+                      p[1] >= std::min(a[1], b[1]) && p[1] <= std::max(a[1], b[1]);
+  return within && turn(a, b, p) == 0.0;
+}
+
+/// Even-odd rule; points on an edge are inside.
+bool in_polygon(const std::vector<Triple>& points, const Triple& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Triple& a = points[i];
+    const Triple& b = points[(i + 1) % points.size()];
+    if (on_edge(a, b, p)) return true;
+    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+    // The edge crosses the level of p; p is left of it when it turns the way the edge climbs.
+    if ((turn(a, b, p) > 0.0) == (b[1] > a[1])) inside = !inside;
+  }
+  return inside;
+}
+
+void require_flat(int dimension) {
+  if (dimension == 2) return;
+  throw InputError(
+      "A polygon was found in a 3-D scene. Allowed are ball, box and shell. "
+      "Use one of them.");
+}
+
+/// Signed area and centroid of a polygon, from triangles with its first corner.
+struct PolygonMoments {
+  double area = 0.0;
+  Triple centroid{};
+};
+
+PolygonMoments polygon_moments(const std::vector<Triple>& points) {
+  PolygonMoments result;
+  if (points.empty()) return result;
+  const Triple& origin = points.front();
+  double sum_x = 0.0, sum_y = 0.0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Triple& a = points[i];
+    const Triple& b = points[i + 1];
+    const double area = 0.5 * turn(origin, a, b);
+    result.area += area;
+    sum_x += area * ((a[0] - origin[0]) + (b[0] - origin[0])) / 3.0;
+    sum_y += area * ((a[1] - origin[1]) + (b[1] - origin[1])) / 3.0;
+  }
+  result.centroid = origin;
+  if (result.area != 0.0) {
+    result.centroid[0] += sum_x / result.area;
+    result.centroid[1] += sum_y / result.area;
+  }
+  return result;
+}
+
+}  // namespace
+
+bool contains(const Region& region, const Triple& point, int dimension) {
+  switch (region.shape) {
+    case BodyShape::disc:
+      return squared_radius(region, point, dimension) <= region.radius * region.radius;
+    case BodyShape::ring: {
+      const double square = squared_radius(region, point, dimension);
+      return square <= region.radius * region.radius &&
+             square >= region.inner_radius * region.inner_radius;
+    }
+    case BodyShape::box:
+      for (int axis = 0; axis < dimension; ++axis) {
+        if (point[axis] < region.low[axis] || point[axis] > region.high[axis]) return false;
+      }
+      return true;
+    case BodyShape::polygon:
+      require_flat(dimension);
+      return in_polygon(region.points, point);
+  }
+  return false;
+}
+
+Triple centroid(const Region& region, int dimension) {
+  switch (region.shape) {
+    case BodyShape::disc:
+    case BodyShape::ring:
+      return region.center;
+    case BodyShape::box: {
+      Triple result{};
+      for (int axis = 0; axis < dimension; ++axis) {
+        result[axis] = 0.5 * (region.low[axis] + region.high[axis]);
+      }
+      return result;
+    }
+    case BodyShape::polygon:
+      require_flat(dimension);
+      return polygon_moments(region.points).centroid;
+  }
+  return {};
+}
+
+double measure(const Region& region, int dimension) {
+  switch (region.shape) {
+    case BodyShape::disc:
+      return ball_measure(region.radius, dimension);
+    case BodyShape::ring:
+      return ball_measure(region.radius, dimension) - ball_measure(region.inner_radius, dimension);
+    case BodyShape::box: {
+      double result = 1.0;
+      for (int axis = 0; axis < dimension; ++axis) result *= region.high[axis] - region.low[axis];
+      return result;
+    }
+    case BodyShape::polygon:
+      require_flat(dimension);
+      return std::fabs(polygon_moments(region.points).area);
+  }
+  return 0.0;
+}
+
+}  // namespace poreshock

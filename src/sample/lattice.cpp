@@ -1,0 +1,144 @@
+#include "lattice.hpp"
+
+#include "poreshock/sample/bodies.hpp"
+
+namespace poreshock {
+namespace {
+
+/// Site numbers along one axis that may lie in [low, high]; on a periodic axis not yet wrapped.
+struct SiteRange {
+  std::int64_t first = 0;
+  std::int64_t last = -1;
+};
+
+SiteRange site_range(const Lattice& lattice, double low, double high, double least, double most) {
+  // One site more on each side: the caller tests every site anyway.
+  const double first = std::max(std::floor(low / lattice.spacing - 0.5), least);
+  const double last = std::min(std::ceil(high / lattice.spacing - 0.5), most);
+  if (!(first <= last)) return {};
+  return {static_cast<std::int64_t>(first), static_cast<std::int64_t>(last)};
+}
+
+/// Calls visit(index into the range's owners, position) for all sites of the range in the box, and
+/// for a few around it. Positions run on across periodic sides, sites are wrapped.
+template <class Visit>
+void for_each_site(const Lattice& lattice, LatticeRange range, const Triple& low,
+                   const Triple& high, const std::array<bool, 2>& periodic, Visit&& visit) {
+  std::array<SiteRange, 3> box{SiteRange{0, 0}, SiteRange{0, 0}, SiteRange{0, 0}};
+  for (int axis = 0; axis < lattice.dimension; ++axis) {
+    double least = 0.0;
+    double most = static_cast<double>(lattice.sites[axis] - 1);
+    if (axis == lattice.shock_axis()) {
+      least = static_cast<double>(range.first);
+      most = static_cast<double>(range.last - 1);
+    } else if (periodic[static_cast<std::size_t>(axis)]) {
+      least = static_cast<double>(-lattice.sites[axis]);
+      most = static_cast<double>(2 * lattice.sites[axis] - 1);
+    }
+    box[axis] = site_range(lattice, low[axis], high[axis], least, most);
+  }
+  Triple position{};
+  for (std::int64_t k = box[2].first; k <= box[2].last; ++k) {
+    if (lattice.dimension == 3) position[2] = site_coordinate(lattice, k);
+    for (std::int64_t j = box[1].first; j <= box[1].last; ++j) {
+      position[1] = site_coordinate(lattice, j);
+      const std::int64_t row =
+          lattice.dimension == 2
+              ? j - range.first
+              : (k - range.first) * lattice.sites[1] + (j + lattice.sites[1]) % lattice.sites[1];
+      for (std::int64_t i = box[0].first; i <= box[0].last; ++i) {
+        position[0] = site_coordinate(lattice, i);
+        visit(static_cast<std::size_t>(row * lattice.sites[0] +
+                                       (i + lattice.sites[0]) % lattice.sites[0]),
+              position);
+      }
+    }
+  }
+}
+
+struct Box {
+  Triple low{}, high{};
+};
+
+Box bounding_box(const Region& region) {
+  if (region.shape == BodyShape::box) return {region.low, region.high};
+  Box box;
+  if (region.shape == BodyShape::polygon) {
+    if (region.points.empty()) return {{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}};
+    box.low = box.high = region.points.front();
+    for (const Triple& p : region.points) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], p[axis]);
+        box.high[axis] = std::max(box.high[axis], p[axis]);
+      }
+    }
+    return box;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = region.center[axis] - region.radius;
+    box.high[axis] = region.center[axis] + region.radius;
+  }
+  return box;
+}
+
+}  // namespace
+
+Lattice make_lattice(const Scene& scene) {
+  Lattice lattice;
+  lattice.dimension = scene.dimension;
+  const int per_cell = scene.sample.particles_per_cell;
+  lattice.spacing = scene.domain.cell / static_cast<double>(per_cell);
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    lattice.sites[axis] = static_cast<std::int64_t>(scene.domain.cells[axis]) * per_cell;
+  }
+  if (scene.sample.kind != SampleKind::none) {
+    const auto below = [&](std::int64_t k) {
+      return site_coordinate(lattice, k) < scene.sample.height;
+    };
+    std::int64_t& n = lattice.sample_layers;
+    n = std::clamp(static_cast<std::int64_t>(scene.sample.height / lattice.spacing),
+                   std::int64_t{0}, lattice.layers());
+    while (n > 0 && !below(n - 1)) --n;
+    while (n < lattice.layers() && below(n)) ++n;
+  }
+  return lattice;
+}
+
+std::int64_t lattice_layers(const Scene& scene) {
+  return make_lattice(scene).layers();
+}
+
+std::vector<std::int32_t> sample_owners(const Scene& scene, const std::vector<Void>& voids,
+                                        LatticeRange range) {
+  const Lattice lattice = make_lattice(scene);
+  const std::int64_t layers = std::max(range.last - range.first, std::int64_t{0});
+  std::vector<std::int32_t> owners(static_cast<std::size_t>(layers * lattice.layer_size()),
+                                   owner_none);
+  const std::int64_t filled =
+      std::clamp(lattice.sample_layers - range.first, std::int64_t{0}, layers);
+  std::fill_n(owners.begin(), filled * lattice.layer_size(), owner_sample);
+  for (const Void& v : voids) {
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = v.center[axis] - v.radius;
+      box.high[axis] = v.center[axis] + v.radius;
+    }
+    const Region region{.center = v.center, .radius = v.radius, .points = {}};
+    for_each_site(lattice, range, box.low, box.high, scene.domain.periodic,
+                  [&](std::size_t site, const Triple& position) {
+                    if (contains(region, position, lattice.dimension)) owners[site] = owner_none;
+                  });
+  }
+  return owners;
+}
+
+void give_region(const Lattice& lattice, LatticeRange range, const Region& region,
+                 std::int32_t owner, std::vector<std::int32_t>& owners) {
+  const Box box = bounding_box(region);
+  for_each_site(lattice, range, box.low, box.high, {false, false},
+                [&](std::size_t site, const Triple& position) {
+                  if (contains(region, position, lattice.dimension)) owners[site] = owner;
+                });
+}
+
+}  // namespace poreshock

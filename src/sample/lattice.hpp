@@ -1,0 +1,50 @@
+#pragma once
+// The regular lattice of particle sites over the whole domain. Sites are numbered with x fastest
+// and the shock axis slowest; a layer is all sites of one coordinate along the shock axis.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "poreshock/sample/fill.hpp"
+
+namespace poreshock {
+
+/// Sites lie at ((i + 0.5) spacing, ...).
+struct Lattice {
+  int dimension = 2;
+  std::array<std::int64_t, 3> sites{1, 1, 1};  ///< per axis; 1 along z in 2-D
+  double spacing = 0.0;                        ///< m
+  std::int64_t sample_layers = 0;              ///< layers whose sites lie below the sample's height
+
+  int shock_axis() const { return dimension - 1; }
+  std::int64_t layers() const { return sites[shock_axis()]; }
+  /// Sites of one layer.
+  std::int64_t layer_size() const { return sites[0] * (dimension == 3 ? sites[1] : 1); }
+};
+
+/// The lattice of a scene.
+Lattice make_lattice(const Scene& scene);
+
+/// Coordinate of site i along any axis, m.
+inline double site_coordinate(const Lattice& lattice, std::int64_t i) {
+  return (static_cast<double>(i) + 0.5) * lattice.spacing;
+}
+
+/// What fills a site: nothing, the sample, or body number owner - owner_first_body.
+inline constexpr std::int32_t owner_none = -1;
+inline constexpr std::int32_t owner_sample = 0;
+inline constexpr std::int32_t owner_first_body = 1;
+
+/// Owners of all sites in layers [first, last), from the sample block and its generated voids
+/// alone.
+std::vector<std::int32_t> sample_owners(const Scene& scene, const std::vector<Void>& voids,
+                                        LatticeRange range);
+
+/// Gives the sites of the range that lie in the region to `owner`.
+void give_region(const Lattice& lattice, LatticeRange range, const Region& region,
+                 std::int32_t owner, std::vector<std::int32_t>& owners);
+
+}  // namespace poreshock

@@ -1,0 +1,76 @@
+#include <cmath>
+
+#include "lattice.hpp"
+#include "text.hpp"
+
+namespace poreshock {
+namespace {
+
+void warn_resolution(const Scene& scene, std::vector<std::string>& warnings) {
+  constexpr double least_cells = 16.0;
+  const double diameter = 2.0 * scene.sample.void_radius;
+  const double cells = diameter / scene.domain.cell;
+  if (cells >= least_cells) return;
+  warnings.push_back("A void is only " + short_number(cells) +
+                     " cells across; below 16 its collapse is not resolved. Set domain.cell to " +
+                     length_text(diameter / least_cells) + " or less.");
+}
+
+void warn_radius(const Scene& scene, const SampleReport& report,
+                 std::vector<std::string>& warnings) {
+  if (scene.sample.void_spread > 0.0) return;
+  const double made = report.voids.front().radius;
+  if (std::fabs(made / scene.sample.void_radius - 1.0) <= 0.01) return;
+  warnings.push_back("The voids have a radius of " + length_text(made) + " instead of " +
+                     length_text(scene.sample.void_radius) + ": only so do " +
+                     std::to_string(report.voids.size()) +
+                     " whole voids make the porosity asked for.");
+}
+
+void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::string>& warnings) {
+  // Overlapping voids have no ligament to keep.
+  if (scene.sample.overlap) return;
+  const double spacing = make_lattice(scene).spacing;
+  const std::string thinnest =
+      "The thinnest solid between two voids is " + length_text(report.least_gap);
+  if (report.least_gap < 3.0 * spacing) {
+    warnings.push_back(thinnest + ", or " + short_number(report.least_gap / spacing) +
+                       " particles; below 3 it may break numerically. Set sample.ligament to " +
+                       length_text(3.0 * spacing) + " or more, or domain.cell finer.");
+  }
+  const bool cubic = scene.transfer.shape == ShapeFunction::cubic;
+  const double reach = cubic ? 3.5 : 2.5;
+  if (report.least_gap < reach * scene.domain.cell) {
+    warnings.push_back(thinnest + ", or " + short_number(report.least_gap / scene.domain.cell) +
+                       " cells; below " + short_number(reach) + " cells the " +
+                       (cubic ? "cubic" : "quadratic") +
+                       " shape function joins what lies on its two sides, and gaps close "
+                       "numerically before the surfaces meet. Set sample.ligament to " +
+                       length_text(reach * scene.domain.cell) + " or more, or domain.cell finer.");
+  }
+}
+
+void warn_islands(const SampleReport& report, std::vector<std::string>& warnings) {
+  const double all = static_cast<double>(report.particles + report.island_particles);
+  const double share = static_cast<double>(report.island_particles) / all;
+  if (!(share > 0.01)) return;
+  warnings.push_back("Floating pieces with " + short_number(100.0 * share) +
+                     " % of the particles were removed, so that the porosity of the particles is " +
+                     short_number(report.particle_void_fraction) +
+                     ": the voids cut the solid apart. Lower sample.porosity or change "
+                     "sample.seed.");
+}
+
+}  // namespace
+
+std::vector<std::string> sample_warnings(const Scene& scene, const SampleReport& report) {
+  std::vector<std::string> warnings;
+  if (report.voids.empty()) return warnings;
+  warn_resolution(scene, warnings);
+  warn_radius(scene, report, warnings);
+  warn_gaps(scene, report, warnings);
+  warn_islands(report, warnings);
+  return warnings;
+}
+
+}  // namespace poreshock

@@ -1,0 +1,15 @@
+#pragma once
+// What must hold between the keys of a scene.
+
+#include "poreshock/scene/scene.hpp"
+#include "report.hpp"
+
+namespace poreshock::scene_text {
+
+/// Sets what follows from the keys: the numbers of cells, and the porosity as a void fraction.
+void resolve(Scene& scene, const Report& report);
+
+/// Adds every contradiction between keys to the report; keys that have a problem are left out.
+void check_scene(const Scene& scene, Report& report);
+
+}  // namespace poreshock::scene_text

@@ -1,0 +1,92 @@
+#pragma once
+// What a key of a scene may hold: range, unit and prose. A rule stands in tables.hpp beside the
+// member it fills; the reader checks with it, the writer takes its comments from it.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace poreshock::scene_text {
+
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// Allowed numbers, always finite.
+struct Range {
+  double low = -unlimited;
+  double high = unlimited;
+  bool above_low = false;   ///< low itself is not allowed
+  bool below_high = false;  ///< high itself is not allowed
+};
+
+inline constexpr Range any_number{};
+inline constexpr Range positive{.low = 0.0, .above_low = true};
+inline constexpr Range not_negative{.low = 0.0};
+inline constexpr Range share{.low = 0.0, .high = 1.0};
+
+enum class Need { optional, required };
+
+/// Rule of a number or of a list of numbers.
+struct NumberRule {
+  Range range;
+  std::string unit;  ///< empty for pure numbers
+  std::string about;
+  Need need = Need::optional;
+};
+
+/// Rule of everything else.
+struct Rule {
+  std::string about;
+  Need need = Need::optional;
+};
+
+/// Names of the values of an enumeration as they stand in a scene.
+template <typename Enum>
+using Names = std::vector<std::pair<std::string, Enum>>;
+
+/// True when the number is finite and inside the range.
+bool in_range(const Range& range, double number);
+
+/// The allowed numbers in words, for example "a number > 0 (m)"; `noun` is "a number" or such.
+std::string allowed_numbers(const std::string& noun, const NumberRule& rule);
+
+/// The allowed names in words, for example "\"disc\", \"box\" or \"ring\"".
+std::string allowed_names(const std::vector<std::string>& names);
+
+/// A number in prose, with at most 12 digits: 4 rather than 4.0.
+std::string plain_number(double number);
+
+/// Shortest text that reads back as the same number, with a point or an exponent.
+std::string number_text(double number);
+
+/// A whole number of any type; its limits are those of the rule and of the type.
+template <typename Visitor, typename Integer>
+void integer(Visitor& visitor, const char* key, Integer& value, NumberRule rule) {
+  if constexpr (sizeof(Integer) < sizeof(std::int64_t)) {
+    constexpr double most = std::numeric_limits<Integer>::max();
+    rule.range.high = rule.range.high < most ? rule.range.high : most;
+  }
+  auto number = static_cast<std::int64_t>(value);
+  visitor.whole(key, number, rule);
+  value = static_cast<Integer>(number);
+}
+
+/// A value of an enumeration by name; false when the scene holds no allowed name.
+template <typename Visitor, typename Enum>
+bool choice(Visitor& visitor, const char* key, Enum& value, const Names<Enum>& names,
+            const Rule& rule) {
+  std::vector<std::string> allowed;
+  std::string name;
+  for (const auto& [text, meaning] : names) {
+    allowed.push_back(text);
+    if (meaning == value) name = text;
+  }
+  if (!visitor.name(key, name, allowed, rule)) return false;
+  for (const auto& [text, meaning] : names) {
+    if (text == name) value = meaning;
+  }
+  return true;
+}
+
+}  // namespace poreshock::scene_text

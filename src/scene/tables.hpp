@@ -1,0 +1,310 @@
+#pragma once
+// Every key of a scene, one function per table: the key, the member it fills, range, unit and
+// prose. Defaults are those of the members. The reader and the writer both walk through these
+// functions.
+
+#include <string>
+#include <vector>
+
+#include "poreshock/scene/scene.hpp"
+#include "rules.hpp"
+
+namespace poreshock::scene_text {
+
+inline const std::vector<std::string> particle_datasets{"id",
+                                                        "grain",
+                                                        "material",
+                                                        "position",
+                                                        "velocity",
+                                                        "mass",
+                                                        "density",
+                                                        "pressure",
+                                                        "stress",
+                                                        "temperature",
+                                                        "plastic_strain",
+                                                        "plastic_work",
+                                                        "internal_energy",
+                                                        "kinetic_energy"};
+
+inline const std::vector<std::string> morphology_fields{
+    "temperature", "pressure", "density", "speed", "von_mises", "plastic_strain"};
+
+template <typename Visitor>
+void visit_domain(Visitor& visitor, Scene& scene) {
+  Domain& domain = scene.domain;
+  visitor.numbers("size", domain.size, scene.dimension, {2, 3},
+                  {positive, "m", "width, height; in 3-D width, depth, height", Need::required});
+  visitor.number("cell", domain.cell, {positive, "m", "edge of a background cell", Need::required});
+  visitor.flags("periodic", domain.periodic, scene.dimension - 1,
+                {"true where a lateral axis repeats itself; one value or one per axis"});
+}
+
+template <typename Visitor>
+void visit_side(Visitor& visitor, Side& side) {
+  const Names<SideKind> kinds{
+      {"wall", SideKind::wall}, {"free", SideKind::free}, {"symmetry", SideKind::symmetry}};
+  choice(visitor, "kind", side.kind, kinds, {"a wall only pushes, a symmetry plane also holds"});
+  visitor.number("velocity", side.velocity, {any_number, "m/s", "of a wall, upwards"});
+}
+
+template <typename Visitor>
+void visit_boundary(Visitor& visitor, Scene& scene) {
+  Boundary& boundary = scene.boundary;
+  visitor.table_or_text("low", "kind",
+                        {"bottom of the domain, velocity in m/s along the shock axis"},
+                        [&](auto& inner) { visit_side(inner, boundary.low); });
+  visitor.table_or_text("high", "kind", {"top of the domain, likewise"},
+                        [&](auto& inner) { visit_side(inner, boundary.high); });
+  visitor.sides("lateral", boundary.lateral, scene.domain.periodic, scene.dimension - 1,
+                {"both sides of a lateral axis that is not periodic: free, wall or symmetry"});
+}
+
+template <typename Visitor>
+void visit_material(Visitor& visitor, MaterialParameters& material) {
+  constexpr Range below_half{.low = 0.0, .high = 0.5, .below_high = true};
+  const Names<PlasticHeat> heats{{"work", PlasticHeat::work},
+                                 {"dissipation", PlasticHeat::dissipation}};
+  visitor.text("name", material.name, {"other tables refer to it", Need::required});
+  visitor.name("model", material.model, {"j2_mie_gruneisen"},
+               {"J2 plasticity with a Mie-Grueneisen equation of state"});
+  visitor.number("density", material.density,
+                 {positive, "kg/m^3", "of the solid without voids", Need::required});
+  visitor.number(
+      "young", material.young,
+      {not_negative, "Pa", "with poisson the shear modulus; 0 = a fluid", Need::required});
+  visitor.number("poisson", material.poisson, {below_half, "", "Poisson's ratio", Need::required});
+  visitor.number("yield", material.yield,
+                 {not_negative, "Pa", "initial yield stress", Need::required});
+  visitor.number("hardening", material.hardening,
+                 {not_negative, "Pa", "rise of the yield stress per plastic strain"});
+  visitor.number("kinematic_share", material.kinematic_share,
+                 {share, "", "of the hardening: 0 isotropic, 1 kinematic"});
+  choice(visitor, "plastic_heat", material.plastic_heat, heats,
+         {"all plastic work is heat, or all but what the back stress stores"});
+  visitor.number("c0", material.c0,
+                 {positive, "m/s", "bulk sound speed, of Us = c0 + lambda Up", Need::required});
+  visitor.number("lambda", material.lambda,
+                 {{.low = 1.0}, "", "slope of Us = c0 + lambda Up", Need::required});
+  visitor.number("gamma", material.gamma,
+                 {not_negative, "", "Grueneisen coefficient, constant", Need::required});
+  visitor.number("cv", material.cv, {positive, "J/(kg K)", "specific heat", Need::required});
+  visitor.number("conductivity", material.conductivity,
+                 {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
+  visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
+  visitor.number("spall", material.spall,
+                 {positive, "Pa", "tension at which the material parts; without it, never"});
+}
+
+/// Index of a material by its name; the first material by default.
+template <typename Visitor>
+void visit_material_name(Visitor& visitor, int& index, const Scene& scene) {
+  Names<int> names;
+  for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
+    // A material whose name is wrong has none, and has been reported.
+    if (!scene.materials[i].name.empty()) names.emplace_back(scene.materials[i].name, i);
+  }
+  choice(visitor, "material", index, names, {"name of a material, by default the first"});
+}
+
+template <typename Visitor>
+void visit_sample(Visitor& visitor, Scene& scene) {
+  Sample& sample = scene.sample;
+  const Names<SampleKind> kinds{{"none", SampleKind::none},
+                                {"solid", SampleKind::solid},
+                                {"random_voids", SampleKind::random_voids}};
+  const Names<PorosityDefinition> definitions{
+      {"void_fraction", PorosityDefinition::void_fraction},
+      {"distension_minus_1", PorosityDefinition::distension_minus_1}};
+  choice(visitor, "kind", sample.kind, kinds, {"a block over the whole width, from the bottom up"});
+  visit_material_name(visitor, sample.material, scene);
+  visitor.fallback(sample.height, scene.domain.size[scene.dimension - 1]);
+  visitor.number("height", sample.height, {positive, "m", "by default that of the domain"});
+  visitor.number("porosity", sample.porosity, {not_negative, "", "share of the voids"});
+  choice(visitor, "porosity_definition", sample.porosity_definition, definitions,
+         {"void volume over all volume, or over solid volume"});
+  visitor.number("void_radius", sample.void_radius, {not_negative, "m", "median radius of a void"});
+  visitor.number("void_spread", sample.void_spread,
+                 {not_negative, "", "standard deviation of ln(radius); 0 = all equal"});
+  visitor.number("ligament", sample.ligament,
+                 {not_negative, "m", "least solid between two voids; not with overlap"});
+  visitor.number("keep_out", sample.keep_out,
+                 {not_negative, "m", "least solid between a void and bottom or top"});
+  visitor.flag("overlap", sample.overlap, {"true where voids may overlap"});
+  integer(visitor, "seed", sample.seed, {not_negative, "", "of the random placement"});
+  integer(visitor, "particles_per_cell", sample.particles_per_cell,
+          {{.low = 1.0, .high = 8.0}, "", "per direction, bodies too"});
+}
+
+inline Names<BodyShape> shape_names(int dimension) {
+  if (dimension == 3) {
+    return {{"ball", BodyShape::disc}, {"box", BodyShape::box}, {"shell", BodyShape::ring}};
+  }
+  return {{"disc", BodyShape::disc},
+          {"box", BodyShape::box},
+          {"ring", BodyShape::ring},
+          {"polygon", BodyShape::polygon}};
+}
+
+template <typename Visitor>
+void visit_region(Visitor& visitor, Region& region, int dimension) {
+  const Rule rule{"the keys that follow depend on it", Need::required};
+  if (!choice(visitor, "shape", region.shape, shape_names(dimension), rule)) {
+    visitor.skip_unknown();
+    return;
+  }
+  const bool ring = region.shape == BodyShape::ring;
+  if (ring || region.shape == BodyShape::disc) {
+    visitor.vector("center", region.center, dimension, {any_number, "m", "", Need::required});
+  }
+  if (region.shape == BodyShape::disc) {
+    visitor.number("radius", region.radius, {positive, "m", "", Need::required});
+  } else if (ring) {
+    visitor.number("inner", region.inner_radius, {positive, "m", "inner radius", Need::required});
+    visitor.number("outer", region.radius, {positive, "m", "outer radius", Need::required});
+  } else if (region.shape == BodyShape::box) {
+    visitor.vector("low", region.low, dimension, {any_number, "m", "corner", Need::required});
+    visitor.vector("high", region.high, dimension,
+                   {any_number, "m", "opposite corner", Need::required});
+  } else {
+    visitor.points("points", region.points,
+                   {any_number, "m", "corners in order around it", Need::required});
+  }
+}
+
+template <typename Visitor>
+void visit_body(Visitor& visitor, Body& body, const Scene& scene) {
+  visit_region(visitor, body.region, scene.dimension);
+  visit_material_name(visitor, body.material, scene);
+  integer(visitor, "grain", body.grain, {not_negative, "", "number of the grain it belongs to"});
+  visitor.vector("velocity", body.velocity, scene.dimension,
+                 {any_number, "m/s", "added to the loading velocity"});
+  const NumberRule spin{any_number, "rad/s", "about the centroid"};
+  if (scene.dimension == 3) {
+    visitor.vector("spin", body.spin, 3, spin);
+  } else {
+    visitor.number("spin", body.spin[2], spin);
+  }
+}
+
+template <typename Visitor>
+void visit_loading(Visitor& visitor, Scene& scene) {
+  visitor.number("velocity", scene.loading.velocity,
+                 {not_negative, "m/s", "impact velocity, of the material towards the low side"});
+  visitor.vector("frame", scene.loading.frame, scene.dimension,
+                 {any_number, "m/s", "added to everything, walls included"});
+}
+
+template <typename Visitor>
+void visit_body_force(Visitor& visitor, Scene& scene) {
+  visitor.vector("acceleration", scene.body_force, scene.dimension,
+                 {any_number, "m/s^2", "of all material"});
+}
+
+template <typename Visitor>
+void visit_transfer(Visitor& visitor, Transfer& transfer) {
+  const Names<ShapeFunction> shapes{{"quadratic", ShapeFunction::quadratic},
+                                    {"cubic", ShapeFunction::cubic}};
+  const Names<VelocityTransfer> transfers{{"flip", VelocityTransfer::flip},
+                                          {"apic", VelocityTransfer::apic}};
+  choice(visitor, "shape", transfer.shape, shapes, {"B-spline between particles and grid"});
+  choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
+  visitor.number("damping", transfer.damping,
+                 {not_negative, "1/s", "of FLIP velocity noise; with flip only"});
+  visitor.number("averaging", transfer.averaging, {share, "", "share of the averaged dilatation"});
+}
+
+template <typename Visitor>
+void visit_viscosity(Visitor& visitor, Viscosity& viscosity) {
+  visitor.number("linear", viscosity.linear,
+                 {not_negative, "", "artificial viscosity, times the sound speed"});
+  visitor.number("quadratic", viscosity.quadratic,
+                 {not_negative, "", "artificial viscosity, times the velocity jump"});
+}
+
+template <typename Visitor>
+void visit_time(Visitor& visitor, TimeControl& time) {
+  visitor.number("end", time.end, {positive, "s", "of the run; impact is at 0", Need::required});
+  visitor.number("cfl", time.cfl,
+                 {{.low = 0.0, .high = 0.9, .above_low = true},
+                  "",
+                  "share of a cell that a wave may cross in a step"});
+  integer(visitor, "max_steps", time.max_steps, {not_negative, "", "0 = no limit"});
+}
+
+template <typename Visitor>
+void visit_output(Visitor& visitor, Output& output) {
+  const Names<Precision> precisions{{"double", Precision::double_precision},
+                                    {"single", Precision::single_precision}};
+  visitor.number("beat", output.beat, {positive, "s", "steps land on its multiples"});
+  visitor.number("snapshot", output.snapshot,
+                 {not_negative, "s", "between snapshots, multiple of beat; 0 = first and last"});
+  visitor.fallback(output.history, output.beat);
+  visitor.number("history", output.history,
+                 {positive, "s", "between rows of history.csv, multiple of beat"});
+  visitor.fallback(output.fields, particle_datasets);
+  visitor.names("fields", output.fields, particle_datasets,
+                {"particle datasets of a snapshot, by default all"});
+  visitor.flag("grid", output.grid, {"true to write the fields of the grid too"});
+  choice(visitor, "precision", output.precision, precisions, {"of the numbers in a snapshot"});
+}
+
+template <typename Visitor>
+void visit_morphology(Visitor& visitor, Scene& scene) {
+  Morphology& morphology = scene.morphology;
+  visitor.number("every", morphology.every,
+                 {not_negative, "s", "between records, multiple of output.beat; 0 = off"});
+  visitor.fallback(morphology.pixel, scene.domain.cell);
+  visitor.number("pixel", morphology.pixel,
+                 {positive, "m", "cell times 1/8, 1/4, 1/2, 1, 2, 4 or 8, by default the cell"});
+  std::vector<std::string> names;
+  for (const MorphologyField& field : morphology.fields) names.push_back(field.name);
+  visitor.names("fields", names, morphology_fields, {"fields to measure"});
+  visitor.thresholds("thresholds", names, morphology.fields,
+                     {"thresholds of each field in its unit (K, Pa, kg/m^3, m/s, Pa, 1)"});
+}
+
+template <typename Visitor>
+void visit_checkpoint(Visitor& visitor, Checkpoint& checkpoint) {
+  integer(visitor, "every_steps", checkpoint.every_steps,
+          {not_negative, "", "steps between checkpoints; 0 = off"});
+  visitor.number("every_time", checkpoint.every_time,
+                 {not_negative, "s", "of simulated time, multiple of output.beat; 0 = off"});
+  visitor.number("every_wall", checkpoint.every_wall, {not_negative, "s", "of wall time; 0 = off"});
+  integer(visitor, "keep", checkpoint.keep, {{.low = 1.0}, "", "newest checkpoints kept"});
+}
+
+template <typename Visitor>
+void visit_scene(Visitor& visitor, Scene& scene) {
+  const Names<Thermal> thermals{{"paper", Thermal::paper}, {"conserving", Thermal::conserving}};
+  visitor.text("title", scene.title, {"shown in reports"});
+  choice(visitor, "thermal", scene.thermal, thermals,
+         {"temperature after eqs 4-7 of the paper, or from the full energy balance"});
+  visitor.table("domain", {"Block of background cells; the last axis is the shock axis."},
+                [&](auto& inner) { visit_domain(inner, scene); });
+  visitor.table("boundary", {"Sides of the domain."},
+                [&](auto& inner) { visit_boundary(inner, scene); });
+  visitor.tables("material", scene.materials, {"A material."},
+                 [](auto& inner, MaterialParameters& item) { visit_material(inner, item); });
+  visitor.table("sample", {"Generated block of material."},
+                [&](auto& inner) { visit_sample(inner, scene); });
+  visitor.tables("body", scene.bodies, {"A piece of material placed by hand."},
+                 [&](auto& inner, Body& item) { visit_body(inner, item, scene); });
+  visitor.tables("void", scene.voids, {"A hole placed by hand."},
+                 [&](auto& inner, Region& item) { visit_region(inner, item, scene.dimension); });
+  visitor.table("loading", {"Impact."}, [&](auto& inner) { visit_loading(inner, scene); });
+  visitor.table("body_force", {"Body force."},
+                [&](auto& inner) { visit_body_force(inner, scene); });
+  visitor.table("transfer", {"Transfer between particles and grid."},
+                [&](auto& inner) { visit_transfer(inner, scene.transfer); });
+  visitor.table("viscosity", {"Artificial viscosity, its coefficients."},
+                [&](auto& inner) { visit_viscosity(inner, scene.viscosity); });
+  visitor.table("time", {"Time."}, [&](auto& inner) { visit_time(inner, scene.time); });
+  visitor.table("output", {"What is written and when."},
+                [&](auto& inner) { visit_output(inner, scene.output); });
+  visitor.table("morphology", {"Minkowski functionals while the run goes."},
+                [&](auto& inner) { visit_morphology(inner, scene); });
+  visitor.table("checkpoint", {"Checkpoints."},
+                [&](auto& inner) { visit_checkpoint(inner, scene.checkpoint); });
+}
+
+}  // namespace poreshock::scene_text

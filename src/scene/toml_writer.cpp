@@ -1,0 +1,183 @@
+#include "toml_writer.hpp"
+
+#include <cstdio>
+
+namespace poreshock::scene_text {
+namespace {
+
+constexpr std::size_t comment_column = 44;
+constexpr std::size_t numbers_per_line = 10;
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += std::string("\\") + c;
+    } else if (code < 0x20 || code == 0x7f) {
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04X", code);
+      result += escape;
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string flag_text(bool flag) {
+  return flag ? "true" : "false";
+}
+
+/// "unit, about", either of which may be empty.
+std::string comment_of(const NumberRule& rule) {
+  if (rule.unit.empty()) return rule.about;
+  return rule.about.empty() ? rule.unit : rule.unit + ", " + rule.about;
+}
+
+/// [a, b, ...] of count texts; long lists go over several lines.
+template <typename Text>
+std::string list_text(std::size_t count, Text text) {
+  const bool is_long = count > numbers_per_line;
+  std::string result = "[";
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_long && i % numbers_per_line == 0) result += "\n  ";
+    result += text(i);
+    if (i + 1 < count) result += (is_long && (i + 1) % numbers_per_line == 0) ? "," : ", ";
+  }
+  return result + (is_long ? "\n]" : "]");
+}
+
+std::string side_text(SideKind kind) {
+  switch (kind) {
+    case SideKind::periodic:
+      return "\"periodic\"";
+    case SideKind::wall:
+      return "\"wall\"";
+    case SideKind::symmetry:
+      return "\"symmetry\"";
+    case SideKind::free:
+      break;
+  }
+  return "\"free\"";
+}
+
+}  // namespace
+
+std::string TomlWriter::path_of(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+void TomlWriter::add(const std::string& key, const std::string& value, const std::string& comment) {
+  entries_.push_back({key, value, comment});
+}
+
+void TomlWriter::add_section(const std::string& path, bool repeated, const std::string& about,
+                             const TomlWriter& inner) {
+  sections_ += "\n";
+  if (!about.empty()) sections_ += "# " + about + "\n";
+  sections_ += repeated ? "[[" : "[";
+  sections_ += path;
+  sections_ += repeated ? "]]\n" : "]\n";
+  sections_ += inner.document();
+}
+
+std::string TomlWriter::inline_text() const {
+  std::string text;
+  for (const Entry& entry : entries_) {
+    text += (text.empty() ? "{ " : ", ") + entry.key + " = " + entry.value;
+  }
+  return text + " }";
+}
+
+std::string TomlWriter::document() const {
+  std::string text;
+  for (const Entry& entry : entries_) {
+    std::string line = entry.key + " = " + entry.value;
+    if (entry.comment.empty()) {
+      text += line + "\n";
+    } else if (line.find('\n') != std::string::npos) {
+      text += "# " + entry.comment + "\n" + line + "\n";
+    } else {
+      if (line.size() < comment_column) line.resize(comment_column, ' ');
+      text += line + "  # " + entry.comment + "\n";
+    }
+  }
+  return text + sections_;
+}
+
+void TomlWriter::number(const char* key, double value, const NumberRule& rule) {
+  add(key, number_text(value), comment_of(rule));
+}
+
+void TomlWriter::number(const char* key, const std::optional<double>& value,
+                        const NumberRule& rule) {
+  // TOML has no empty value: a key that is not set becomes a comment.
+  if (value) return number(key, *value, rule);
+  add(std::string("# ") + key, "", comment_of(rule));
+}
+
+void TomlWriter::whole(const char* key, std::int64_t value, const NumberRule& rule) {
+  add(key, std::to_string(value), comment_of(rule));
+}
+
+void TomlWriter::flag(const char* key, bool value, const Rule& rule) {
+  add(key, flag_text(value), rule.about);
+}
+
+void TomlWriter::text(const char* key, const std::string& value, const Rule& rule) {
+  add(key, quoted(value), rule.about);
+}
+
+bool TomlWriter::name(const char* key, const std::string& value, const std::vector<std::string>&,
+                      const Rule& rule) {
+  add(key, quoted(value), rule.about);
+  return true;
+}
+
+void TomlWriter::names(const char* key, const std::vector<std::string>& value,
+                       const std::vector<std::string>&, const Rule& rule) {
+  add(key, list_text(value.size(), [&](std::size_t i) { return quoted(value[i]); }), rule.about);
+}
+
+void TomlWriter::numbers(const char* key, const Triple& value, int count,
+                         std::initializer_list<int>, const NumberRule& rule) {
+  vector(key, value, count, rule);
+}
+
+void TomlWriter::vector(const char* key, const Triple& value, int count, const NumberRule& rule) {
+  const auto text = [&](std::size_t i) { return number_text(value[i]); };
+  add(key, list_text(static_cast<std::size_t>(count), text), comment_of(rule));
+}
+
+void TomlWriter::points(const char* key, const std::vector<Triple>& value, const NumberRule& rule) {
+  const auto text = [&](std::size_t i) {
+    return list_text(2, [&](std::size_t axis) { return number_text(value[i][axis]); });
+  };
+  add(key, list_text(value.size(), text), comment_of(rule));
+}
+
+void TomlWriter::flags(const char* key, const std::array<bool, 2>& value, int count,
+                       const Rule& rule) {
+  const auto text = [&](std::size_t i) { return flag_text(value[i]); };
+  add(key, list_text(static_cast<std::size_t>(count), text), rule.about);
+}
+
+void TomlWriter::sides(const char* key, const std::array<SideKind, 2>& value,
+                       const std::array<bool, 2>&, int count, const Rule& rule) {
+  const auto text = [&](std::size_t i) { return side_text(value[i]); };
+  add(key, list_text(static_cast<std::size_t>(count), text), rule.about);
+}
+
+void TomlWriter::thresholds(const char* key, const std::vector<std::string>&,
+                            const std::vector<MorphologyField>& value, const Rule& rule) {
+  if (value.empty()) return;
+  TomlWriter inner(path_of(key));
+  for (const MorphologyField& field : value) {
+    const auto text = [&](std::size_t i) { return number_text(field.thresholds[i]); };
+    inner.add(field.name, list_text(field.thresholds.size(), text), "");
+  }
+  add_section(path_of(key), false, rule.about, inner);
+}
+
+}  // namespace poreshock::scene_text

@@ -1,0 +1,96 @@
+"""Makes an output folder with the names and units of a run, from formulas instead of a run."""
+import json
+
+import h5py
+import numpy
+
+WIDTH, HEIGHT, CELL = 0.4e-3, 2.0e-3, 10e-6
+SPEED, FRONT, HOT = 1100.0, 5700.0, 480.0  # m/s, m/s relative to the wall, K
+THRESHOLDS = numpy.arange(310.0, 700.0, 10.0)
+
+SCENE = """title = "Porous aluminium, made up"
+thermal = "{thermal}"
+[domain]
+size = [0.4e-3, 2.0e-3]
+cell = 10e-6
+[[material]]
+name = "aluminium"
+T0 = 300.0
+"""
+
+HISTORY = ("time [s],step [-],dt [s],particles [-],kinetic [J/m],internal [J/m],escaped [J/m],"
+           "wall_work [J/m],body_work [J/m],total [J/m],elastic [J/m],plastic_work [J/m],"
+           "viscous_heat [J/m],filter_heat [J/m],wall_heat [J/m],contact_heat [J/m],"
+           "friction_heat [J/m],conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],guards [-]")
+
+
+def _lattice(dimension):
+    axes = [numpy.arange(CELL / 4, end, CELL / 2) for end in (WIDTH, 4 * CELL, HEIGHT)]
+    if dimension == 2:
+        axes.pop(1)
+    points = numpy.stack([axis.ravel() for axis in numpy.meshgrid(*axes, indexing="ij")], axis=1)
+    centers = numpy.random.default_rng(1).uniform((0, 0), (WIDTH, HEIGHT), (40, 2))
+    flat = points[:, [0, -1]]
+    near = numpy.min(numpy.linalg.norm(flat[:, None] - centers[None], axis=2), axis=1)
+    return points[near > 25e-6], near[near > 25e-6]
+
+
+def write_snapshots(folder, times, dimension):
+    rest, near = _lattice(dimension)
+    for number, time in enumerate(times):
+        position = rest.copy()
+        front = (FRONT - SPEED) * time
+        position[:, -1] = rest[:, -1] - SPEED * time
+        squeezed = rest[:, -1] * (1.0 - SPEED / FRONT)
+        behind = squeezed < front
+        position[:, -1] = numpy.where(behind, squeezed, position[:, -1])
+        temperature = numpy.where(behind, HOT + 900.0 * numpy.exp(-((near - 25e-6) / 15e-6)), 300.0)
+        with h5py.File(folder / f"snapshot_{number:06d}.h5", "w") as file:
+            file.attrs.update(time=time, step=number * 100, version="0.1.0", revision="abc")
+            data = {"position": position, "temperature": temperature,
+                    "mass": numpy.full(len(rest), 2700.0 * (CELL / 2)**dimension),
+                    "density": numpy.full(len(rest), 2700.0)}
+            for name, values in data.items():
+                file[f"particles/{name}"] = values
+
+
+def write_morphology(folder, times):
+    """One small file per record, as a run that has not ended leaves them."""
+    for number, time in enumerate(times):
+        done = time / times[-1]
+        hot = 1.0 / (1.0 + numpy.exp((THRESHOLDS - HOT) / 40.0))
+        with h5py.File(folder / f"morphology_{number:06d}.h5", "w") as file:
+            group = file.create_group("temperature")
+            group["time"], group["threshold"] = [time], THRESHOLDS
+            group["A"] = [done * hot]
+            group["L"] = [0.8 * done * hot * (1.0 - hot)]
+            group["chi"] = [-0.01 * done * (THRESHOLDS - HOT) / 100.0 * hot * (1.0 - hot)]
+
+
+def write_history(folder, times):
+    rows = [HISTORY]
+    for number, time in enumerate(times):
+        kinetic, done = 1000.0 * (1.0 - 0.8 * time / times[-1]), 800.0 * time / times[-1]
+        total = 1000.0 * (1.0 + 1e-13 * number)
+        rows.append(",".join(f"{entry:.17g}" for entry in (
+            time, number * 10, 1e-10, 48000, kinetic, total - kinetic, 0, 0, 0, total, 0.05 * done,
+            0.4 * done, 0.5 * done, 0.04 * done, 0.01 * done, 0, 0, 0, 0, -1.0 + time, 3)))
+    (folder / "history.csv").write_text("\n".join(rows) + "\n1.0,2")  # the last row is cut
+
+
+def write_timings(folder):
+    phases = {name: {"min": seconds, "avg": 1.1 * seconds, "max": 1.2 * seconds, "calls": 1000}
+              for name, seconds in (("particles_to_grid", 41.0), ("stress", 62.0), ("exchange", 3.0))}
+    (folder / "timings.json").write_text(json.dumps({
+        "ranks": 2, "wall_seconds": 123.5, "steps": 1000, "particle_steps": 48000000,
+        "rate_per_core": 194331.0, "phases": phases}))
+
+
+def write_output(folder, thermal="paper", dimension=2):
+    """Fills `folder` with everything the report reads."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "scene.toml").write_text(SCENE.format(thermal=thermal))
+    write_snapshots(folder, [0.0, 50e-9, 100e-9, 150e-9, 200e-9], dimension)
+    write_morphology(folder, numpy.linspace(0.0, 200e-9, 21))
+    write_history(folder, numpy.linspace(0.0, 200e-9, 101))
+    write_timings(folder)

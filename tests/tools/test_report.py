@@ -1,0 +1,106 @@
+"""The report of a made-up output folder: complete, self-contained, and honest about what is missing."""
+import re
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from fake_output import THRESHOLDS, write_output  # noqa: E402
+from poreshock_report import figures, folder, page  # noqa: E402
+
+FIGURES = ("Figure 1: temperature", "Figure 2: morphology against time", "Figure 3: the A-L-chi space",
+           "Energy ledger")
+PICTURES = {"temperature.png", "morphology_time.png", "morphology_space.png", "energy.png"}
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = Path(self.temporary.name) / "run"
+
+    def test_complete_folder_gives_every_figure_in_one_file(self):
+        write_output(self.folder)
+        text = page.write(self.folder).read_text()
+        for title in FIGURES:
+            self.assertIn(f"<h2>{title}</h2>", text)
+        self.assertEqual(text.count('src="data:image/png;base64,'), 4)
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', text), [])
+        self.assertNotIn("http", re.sub(r'base64,[^"]*', "", text))
+        self.assertNotIn("Missing:", text)
+        self.assertEqual({path.name for path in (self.folder / "pictures").iterdir()}, PICTURES)
+
+    def test_final_numbers(self):
+        write_output(self.folder, thermal="conserving")
+        text = page.write(self.folder).read_text()
+        for label, value in (("thermal mode", "conserving"), ("steps", "1 000"), ("particles", "48 000"),
+                             ("wall time [s]", "123.5"), ("guards (clamps and floors hit)", "3"),
+                             ("energy drift at the end [-]", "1e-11")):
+            cell = re.search(f"<td>{re.escape(label)}</td><td[^>]*>(.*?)</td>", text)
+            self.assertEqual(cell and cell[1], value, label)
+        self.assertIn("Thermal mode: conserving.", text)
+        # The phase that took longest comes first.
+        self.assertLess(text.index("<td>stress</td>"), text.index("<td>particles_to_grid</td>"))
+
+    def test_three_dimensional_snapshots(self):
+        write_output(self.folder, dimension=3)
+        self.assertNotIn("Missing:", page.write(self.folder).read_text())
+
+    def test_every_missing_part_is_named(self):
+        write_output(self.folder)
+        for pattern, words in (("morphology_*.h5", "there is no morphology.h5"),
+                               ("timings.json", "there is no timings.json"),
+                               ("history.csv", "there is no history.csv"),
+                               ("snapshot_*.h5", "there is no snapshot_*.h5"),
+                               ("scene.toml", "there is no scene.toml")):
+            for path in self.folder.glob(pattern):
+                path.unlink()
+            self.assertIn(words, page.write(self.folder).read_text())
+
+    def test_damaged_files_are_no_reason_to_fail(self):
+        write_output(self.folder)
+        for name in ("snapshot_000003.h5", "morphology_000004.h5", "timings.json", "history.csv"):
+            (self.folder / name).write_bytes(b"\x89HDF,,\n")
+        text = page.write(self.folder).read_text()
+        self.assertIn("timings.json cannot be read", text)
+        self.assertEqual(len(folder.snapshot_times(self.folder)), 4)
+        self.assertEqual(len(folder.read_morphology(self.folder)[0]), 20)
+
+    def test_history_is_read_by_name_without_its_cut_row(self):
+        write_output(self.folder)
+        columns, units = folder.read_history(self.folder)
+        self.assertEqual(len(columns["time"]), 101)
+        self.assertEqual((units["kinetic"], units["momentum_y"], units["step"]), ("J/m", "kg/s", "-"))
+        numpy.testing.assert_allclose(columns["kinetic"] + columns["internal"], columns["total"], rtol=1e-15)
+
+
+class Figures(unittest.TestCase):
+    def test_nearest_thresholds(self):
+        rises = figures.nearest_rises(THRESHOLDS, 300.0)
+        self.assertEqual([label for _, label in rises], ["50 K", "100 K", "150 K", "200 K", "250 K"])
+        # With few thresholds each is shown once.
+        self.assertEqual([i for i, _ in figures.nearest_rises(numpy.array([350.0, 500.0]), 300.0)], [0, 1])
+
+    def test_snapshots_are_chosen_evenly_without_the_start(self):
+        times = [(float(i), None) for i in range(23)]
+        self.assertEqual(figures.choose_snapshots(times), [1, 5, 9, 14, 18, 22])
+        self.assertEqual(figures.choose_snapshots(times[:5]), [1, 2, 3, 4])
+        self.assertEqual(figures.choose_snapshots(times[:1]), [0])
+
+    def test_pixel_means_bridge_gaps_and_keep_voids(self):
+        x, y = (axis.ravel() for axis in numpy.meshgrid(numpy.arange(9) + 0.5, numpy.arange(9) + 0.5))
+        gap = (x == 2.5) & (y == 2.5)
+        void = (numpy.abs(x - 5.5) < 2) & (numpy.abs(y - 5.5) < 2)
+        keep = ~(gap | void)
+        mean, _ = figures.pixel_mean(x[keep], y[keep], 300.0 + x[keep], ((0, 9), (0, 9)), 1.0)
+        self.assertEqual(mean.shape, (9, 9))
+        self.assertEqual(mean[2, 2], 302.5)  # the mean of its eight neighbours
+        self.assertTrue(numpy.isnan(mean[5, 5]))
+        self.assertEqual(mean[0, 3], 303.5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""Checks the layers: includes point down only, libraries stay in their layer, trees are paired.
+
+Usage: tools/check_layers.py [ROOT]. Prints file:line: message for each problem; exit 1 if any.
+"""
+import re
+import sys
+from pathlib import Path
+
+BASE = ("core", "material", "scene", "particles", "grid")  # each may include those before it
+MAY_INCLUDE = {layer: set(BASE[:i]) for i, layer in enumerate(BASE)}
+MAY_INCLUDE |= {
+    "sample": set(BASE),
+    "output": set(BASE),
+    "morphology": {"core"},  # measures any pixel map, knows no solver type
+    "transfer": set(BASE),
+    "physics": {*BASE, "transfer"},
+    "solver": {*BASE, "sample", "output", "morphology", "transfer", "physics"},
+}
+MAY_INCLUDE["app"] = set(MAY_INCLUDE) - {"app"}
+
+LIBRARIES = (  # header of a library, the paths that may include it, their name for the message
+    (r"toml\+\+/|toml\.hpp", r"src/scene/", "src/scene"),
+    (r"hdf5|H5[A-Z]\w*\.h|H5public\.h", r"(src|include/poreshock)/output/", "the output layer"),
+    (r"metis\.h", r"src/grid/partition\.cpp$", "src/grid/partition.cpp"),
+    (r"CLI/", r"(src|include/poreshock)/app/", "the app layer"),
+)
+TOP_LEVEL = {"CMakeLists.txt", "src", "include", "input", "tests", "jobscripts", "tools", "README.md"}
+NOT_OURS = {"build", "output"}  # made by tools/build and tools/run
+INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def check_include(layer, place, file, quoted, target):
+    """The problem with one include of `place` (relative to the root), or None."""
+    ours = re.match(r"poreshock/(\w+)/", target)
+    if ours and ours[1] not in MAY_INCLUDE:
+        return f"includes {target}: there is no layer '{ours[1]}'"
+    if ours and ours[1] != layer and ours[1] not in MAY_INCLUDE[layer]:
+        allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "no other layer"
+        return f"layer '{layer}' includes {target}; it may include {allowed}"
+    if quoted and not ours and not (file.parent / target).resolve().is_relative_to(file.parent.resolve()):
+        return f"includes {target}; a private header is included from its own folder only"
+    for header, where, name in LIBRARIES:
+        if re.match(header, target) and not re.match(where, place):
+            return f"includes {target}; only {name} may"
+    return None
+
+
+def check_file(root, tree, file):
+    """Problems of one header or source as 'file:line: message'."""
+    place = file.relative_to(root).as_posix()
+    parts = file.relative_to(root / tree).parts
+    if len(parts) < 2 or parts[0] not in MAY_INCLUDE:
+        yield f"{place}:1: lies in no layer; the layers are {', '.join(MAY_INCLUDE)}"
+        return
+    own = parts[0] == "app" or file.suffix == ".hpp"
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        found = INCLUDE.match(line)
+        problem = found and check_include(parts[0], place, file, found[1] == '"', found[2])
+        if problem:
+            yield f"{place}:{number}: {problem}"
+        own = own or found and (found[2].startswith(f"poreshock/{parts[0]}/") or found[1] == '"' and "/" not in found[2])
+    if not own:
+        yield f"{place}:1: includes no header of its layer, so nothing declares what it defines"
+    elsewhere = [header for header in (root / "include/poreshock").glob(f"*/{file.stem}.hpp")]
+    if file.suffix == ".cpp" and elsewhere and parts[0] not in [header.parent.name for header in elsewhere]:
+        yield f"{place}:1: its header is {elsewhere[0].relative_to(root)}; a pair lies in one layer"
+
+
+def problems(root):
+    """All problems below `root`, in order of path."""
+    for entry in sorted(root.iterdir()):
+        if entry.name not in TOP_LEVEL | NOT_OURS and not entry.name.startswith("."):
+            yield f"{entry.name}:1: does not belong here; the top level holds {', '.join(sorted(TOP_LEVEL))}"
+    for tree in ("include/poreshock", "src"):
+        for file in sorted((root / tree).rglob("*.[ch]pp")):
+            yield from check_file(root, tree, file)
+
+
+if __name__ == "__main__":
+    found = list(problems(Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()))
+    print("\n".join(found), end="\n" if found else "")
+    sys.exit(1 if found else 0)

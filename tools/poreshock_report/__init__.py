@@ -1,0 +1,1 @@
+"""Report of an output folder: reading (folder), pictures (figures) and the page itself (page)."""

@@ -1,0 +1,114 @@
+"""Reads what a run left in its output folder. Every reader raises Missing with the reason."""
+import csv
+import json
+import re
+import tomllib
+
+import h5py
+import numpy
+
+
+class Missing(Exception):
+    """Something the report would show is not there; the text says what and why."""
+
+
+def read_scene(folder):
+    """The resolved scene as nested tables."""
+    path = folder / "scene.toml"
+    if not path.exists():
+        raise Missing("there is no scene.toml")
+    try:
+        return tomllib.loads(path.read_text(errors="replace"))
+    except tomllib.TOMLDecodeError as error:
+        raise Missing(f"scene.toml cannot be read: {error}") from None
+
+
+def read_timings(folder):
+    """timings.json as it is."""
+    path = folder / "timings.json"
+    if not path.exists():
+        raise Missing("there is no timings.json (it is written at the end of a run)")
+    try:
+        return json.loads(path.read_text(errors="replace"))
+    except json.JSONDecodeError as error:
+        raise Missing(f"timings.json cannot be read: {error}") from None
+
+
+def read_history(folder):
+    """Columns of history.csv by name, and their units by name."""
+    path = folder / "history.csv"
+    if not path.exists():
+        raise Missing("there is no history.csv")
+    with path.open(newline="", errors="replace") as file:
+        rows = list(csv.reader(file))
+    titles = [re.fullmatch(r"\s*(\w+)\s*(?:\[(.*)\])?\s*", title) for title in (rows or [[]])[0]]
+    if not titles or None in titles:
+        raise Missing("the first line of history.csv does not name the columns as 'name [unit]'")
+    values = []
+    for row in rows[1:]:
+        try:
+            numbers = [float(entry) for entry in row]
+        except ValueError:
+            continue  # the last row of a killed run may be cut
+        if len(numbers) == len(titles):
+            values.append(numbers)
+    if not values:
+        raise Missing("history.csv holds no rows")
+    columns = {title[1]: column for title, column in zip(titles, numpy.array(values).T)}
+    return columns, {title[1]: title[2] or "-" for title in titles}
+
+
+def snapshot_times(folder):
+    """Sorted list of (time, path) of the snapshots that can be read."""
+    found = []
+    for path in sorted(folder.glob("snapshot_*.h5")):
+        try:
+            with h5py.File(path, "r") as file:
+                found.append((float(numpy.ravel(file.attrs["time"])[0]), path))
+        except (OSError, KeyError):
+            continue  # not one of ours, or cut short
+    if not found:
+        raise Missing("there is no snapshot_*.h5 that can be read")
+    return sorted(found)
+
+
+def read_particles(path, names):
+    """Datasets of /particles of a snapshot by name."""
+    try:
+        with h5py.File(path, "r") as file:
+            return {name: file["particles"][name][()] for name in names}
+    except (OSError, KeyError) as error:
+        raise Missing(f"{path.name} cannot be read: {error}") from None
+
+
+def _read_records(path, field, names):
+    with h5py.File(path, "r") as file:
+        group = file[field]
+        time = numpy.ravel(group["time"][()])
+        threshold = numpy.ravel(group["threshold"][()])
+        shape = (len(time), len(threshold))
+        return time, threshold, {name: group[name][()].reshape(shape) for name in names}
+
+
+def read_morphology(folder, field="temperature", names=("A", "L", "chi")):
+    """Times (n), thresholds (K) and the named arrays (n x K) of a field."""
+    whole = folder / "morphology.h5"
+    paths = [whole] if whole.exists() else sorted(folder.glob("morphology_*.h5"))
+    if not paths:
+        raise Missing("there is no morphology.h5 and no morphology_*.h5 "
+                      "(the scene needs [morphology] every > 0)")
+    records, problem = [], ""
+    for path in paths:
+        try:
+            records.append(_read_records(path, field, names))
+        except (OSError, KeyError, ValueError) as error:
+            problem = f"{path.name} holds no '{field}' with {', '.join(names)}: {error}"
+    if not records:
+        raise Missing(problem)
+    threshold = records[0][1]
+    records = [record for record in records if numpy.array_equal(record[1], threshold)]
+    time = numpy.concatenate([record[0] for record in records])
+    order = numpy.argsort(time, kind="stable")
+    arrays = {name: numpy.concatenate([record[2][name] for record in records])[order]
+              for name in names}
+    return time[order], threshold, arrays
