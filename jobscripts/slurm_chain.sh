@@ -15,7 +15,7 @@ scene=${1:?usage: sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of pore
 output=${2:?usage: sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of poreshock run]}
 
 newest_checkpoint() {
-  find "$output" -maxdepth 1 -name 'checkpoint_*.h5' 2>/dev/null | sort | tail -n 1
+  [[ ! -d $output ]] || find "$output" -maxdepth 1 -name 'checkpoint_*.h5' | sort | tail -n 1
 }
 
 before=$(newest_checkpoint)

@@ -84,9 +84,11 @@ def read(path):
 
 
 def end_time(scene, plate):
-    """Time at which the fastest wave has gone through most of the plate."""
+    """Last beat of the output before the fastest wave has gone through most of the plate."""
     fastest = max(plate.final.front, plate.precursor.front if plate.precursor else 0.0)
-    return FLIGHT * scene["sample"]["height"] / fastest
+    beat = scene.get("output", {}).get("beat", 5e-9)
+    beats = int(FLIGHT * scene["sample"]["height"] / fastest / beat)
+    return float(f"{beats * beat:.12g}")
 
 
 def run(scene_path, folder, velocity, end, ranks, settings):

@@ -6,53 +6,54 @@
 namespace poreshock {
 
 namespace {
-constexpr double lowest_eta = -1.0;
+constexpr int intervals_to_guard = 1280;  // about 3e-4 in eta
 
 // The Hugoniot is singular at eta = 1/lambda, and eta = 1 is no volume at all.
 double eta_limit(double lambda) {
   return 1.0 / std::max(lambda, 1.0);
 }
-constexpr int table_intervals = 4096;
 }  // namespace
 
 MieGruneisen make_mie_gruneisen(double density, double c0, double lambda, double gamma, double cv,
                                 double T0) {
-  // 0.85 of the limit keeps the tangent finite and steep.
-  return {density, density * c0 * c0, lambda, gamma, cv, T0, 0.85 * eta_limit(lambda)};
+  // At 0.85 of the limit the tangent is finite and steep. A constant gamma asks for less: on the
+  // Hugoniot c^2 = V^2 rho0 [P'(1 - gamma eta/(2 (1 - eta))) + gamma P/(2 (1 - eta))] turns
+  // negative a little above eta = 2/(2 + gamma). From 0.9 of that the tangents keep c^2 > 0 at any
+  // eta.
+  const double guard = std::min(0.85 * eta_limit(lambda), 1.8 / (2.0 + gamma));
+  return {density, density * c0 * c0, lambda, gamma, cv, T0, guard};
 }
 
 TemperatureCurve make_temperature_curve(const MieGruneisen& eos) {
   TemperatureCurve curve;
-  const double highest_eta = 0.95 * eta_limit(eos.lambda);
-  curve.first = lowest_eta;
-  curve.step = (highest_eta - lowest_eta) / table_intervals;
-  const double heating = eos.lambda * (eos.bulk / eos.density) / eos.cv;
-  // Eq 6 is the entropy that (eta P_r' - P_r)/2 makes: constant on the tangent beyond the guard.
-  const auto source = [&](double s) {
-    const double inside = std::min(s, eos.guard);
-    const double f = 1.0 - eos.lambda * inside;
-    return inside * inside / (f * f * f);
+  // The curve bends at V0 and at the guard: a node lies on each. It starts at twice V0.
+  curve.step = eos.guard / intervals_to_guard;
+  const int below = static_cast<int>(1.0 / curve.step);
+  const int above = static_cast<int>(0.95 * eta_limit(eos.lambda) / curve.step);
+  curve.first = -curve.step * below;
+  // Eq 6 in eta: what the reference energy gains beyond the work of the reference pressure, K.
+  const auto heat = [&](double eta) {
+    const ReferencePoint r = reference_point(eos, eta);
+    return (r.energy_slope - r.pressure / eos.density) / eos.cv;
   };
-  const auto integrand = [&](double s) { return source(s) * std::pow(1.0 - s, eos.gamma); };
-  // T_r (1 - eta)^gamma = T0 + heating * integral, integrated node to node by 5-point Gauss.
+  // T_r (1 - eta)^gamma = T0 + integral of heat (1 - eta)^gamma, node to node by 5-point Gauss.
   static constexpr double x[5] = {0.0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
                                   -0.9061798459386640};
   static constexpr double w[5] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665,
                                   0.2369268850561891, 0.2369268850561891};
   double integral = 0.0;
-  double from = 0.0;
-  for (int i = 0; i <= table_intervals; ++i) {
-    const double eta = curve.first + curve.step * i;
-    double heat_slope = 0.0;
-    if (eta > 0.0) {
-      const double half = 0.5 * (eta - from);
-      for (int k = 0; k < 5; ++k) integral += half * w[k] * integrand(from + half * (1.0 + x[k]));
-      from = eta;
-      heat_slope = heating * source(eta);
+  for (int i = -below; i <= above; ++i) {
+    const double eta = curve.step * i;
+    if (i > 0) {
+      const double half = 0.5 * curve.step;
+      for (int k = 0; k < 5; ++k) {
+        const double s = eta - half * (1.0 - x[k]);
+        integral += half * w[k] * heat(s) * std::pow(1.0 - s, eos.gamma);
+      }
     }
-    const double T = (eos.T0 + heating * integral) / std::pow(1.0 - eta, eos.gamma);
+    const double T = (eos.T0 + integral) / std::pow(1.0 - eta, eos.gamma);
     curve.value.push_back(T);
-    curve.slope.push_back(eos.gamma * T / (1.0 - eta) + heat_slope);  // eq 6 in eta
+    curve.slope.push_back(eos.gamma * T / (1.0 - eta) + (i > 0 ? heat(eta) : 0.0));
   }
   return curve;
 }

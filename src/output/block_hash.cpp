@@ -111,13 +111,17 @@ Seal read_seal(const std::string& path) {
   SealBytes bytes{};
   file.read(0, bytes.data(), bytes.size());
   const Seal seal = load<Seal>(bytes.data());
-  const bool intact =
-      load<std::uint64_t>(bytes.data() + own_hash_at) == block_hash(bytes.data(), own_hash_at);
+  const auto matches = [](const SealBytes& b) {
+    return load<std::uint64_t>(b.data() + own_hash_at) == block_hash(b.data(), own_hash_at);
+  };
   if (seal.word != magic) {
-    throw InputError(path + (intact ? ": damaged" : ": not written by poreshock") +
+    // With the right mark in place the header's own hash tells a damaged file from a foreign one.
+    SealBytes repaired = bytes;
+    std::memcpy(repaired.data(), magic.data(), magic.size());
+    throw InputError(path + (matches(repaired) ? ": damaged" : ": not written by poreshock") +
                      ", its first 8 bytes are not the mark of poreshock files");
   }
-  if (!intact)
+  if (!matches(bytes))
     throw InputError(path + ": damaged: its header does not match the header's own hash");
   if (seal.version > seal_version) {
     throw InputError(path + ": written by a newer poreshock: format version " +

@@ -83,7 +83,7 @@ std::vector<std::string> dataset_paths(hid_t file) {
   std::vector<std::string> paths;
   const auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* data) -> herr_t {
     if (info->type != H5O_TYPE_DATASET) return 0;
-    static_cast<std::vector<std::string>*>(data)->push_back("/" + std::string(name));
+    static_cast<std::vector<std::string>*>(data)->push_back(std::string("/").append(name));
     return 0;
   };
   check_hdf5(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, visit, &paths, H5O_INFO_BASIC),

@@ -64,7 +64,7 @@ void create_serially(const std::string& path, const FileSpec& spec) {
               "create " + path);
   for (const Attribute& attribute : spec.attributes) write_attribute(file.get(), attribute);
   for (const DatasetSpec& dataset : spec.datasets) create_dataset(file.get(), links.get(), dataset);
-  file.close("write " + path);
+  file.close_now("write " + path);
 }
 
 FileSize estimate_size(const FileSpec& spec) {

@@ -73,6 +73,48 @@ void select_rows(hid_t space, const RowLayout& layout, std::uint64_t first, std:
       "select rows");
 }
 
+/// Rows of one rank on their way between memory and a dataset.
+struct RowTransfer {
+  RowLayout layout;
+  NumberType type;
+  std::uint64_t first;  ///< first row in the dataset
+  std::uint64_t count;  ///< rows
+  std::uint64_t piece;  ///< rows per call
+  std::byte* data;
+  bool writing;
+};
+
+/// Turns a count of numbers into rows and pieces; SystemError when they are not in the dataset.
+void split(const std::string& where, std::uint64_t numbers, std::uint64_t piece_bytes,
+           RowTransfer& rows) {
+  const std::uint64_t width = rows.layout.width;
+  rows.count = width > 0 ? numbers / width : 0;
+  if (rows.count * width != numbers || rows.first + rows.count > rows.layout.rows) {
+    throw SystemError(where + " has " + std::to_string(rows.layout.rows) + " rows of " +
+                      std::to_string(width) + " numbers; asked for " + std::to_string(numbers) +
+                      " numbers from row " + std::to_string(rows.first));
+  }
+  const std::uint64_t row_bytes = std::max<std::uint64_t>(1, width * number_size(rows.type));
+  rows.piece = std::max<std::uint64_t>(1, piece_bytes / row_bytes);
+}
+
+/// Moves one piece; a rank with fewer pieces than the others takes part with nothing.
+herr_t move_piece(const RowTransfer& rows, std::uint64_t piece, hid_t dataset, hid_t properties) {
+  const std::uint64_t done = std::min(rows.count, piece * rows.piece);
+  const std::uint64_t now = std::min(rows.piece, rows.count - done);
+  const Handle space(H5Dget_space(dataset), H5Sclose, "read a shape");
+  select_rows(space.get(), rows.layout, rows.first + done, now);
+  const hsize_t numbers = std::max<hsize_t>(1, now * rows.layout.width);
+  const Handle memory(H5Screate_simple(1, &numbers, nullptr), H5Sclose, "describe memory");
+  if (now == 0) check_hdf5(H5Sselect_none(memory.get()), "select no rows");
+  std::byte nothing{};
+  std::byte* const at =
+      now == 0 ? &nothing : rows.data + done * rows.layout.width * number_size(rows.type);
+  const hid_t type = memory_type(rows.type);
+  return rows.writing ? H5Dwrite(dataset, type, memory.get(), space.get(), properties, at)
+                      : H5Dread(dataset, type, memory.get(), space.get(), properties, at);
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(std::string path, MPI_Comm communicator, bool writing)
@@ -124,59 +166,35 @@ Hdf5File::~Hdf5File() {
 
 void Hdf5File::transfer(const std::string& dataset, std::uint64_t first_row, NumberType type,
                         void* data, std::uint64_t count, std::uint64_t piece_bytes) {
-  RowLayout layout;
   std::optional<Handle> opened;
+  RowTransfer rows{{}, type, first_row, 0, 1, static_cast<std::byte*>(data), writing_};
   std::int64_t pieces = 0;
-  std::uint64_t piece_rows = 1;
-  std::uint64_t rows = 0;
   // All that can go wrong on one rank alone is checked before the ranks depend on each other.
   agree(attempt([&] {
           const hid_t found = H5Dopen2(handle_, dataset.c_str(), H5P_DEFAULT);
           if (found < 0) throw InputError(path_ + ": has no dataset " + dataset);
           opened.emplace(found, H5Dclose, "open " + dataset);
           const Handle space(H5Dget_space(found), H5Sclose, "read the shape of " + dataset);
-          layout = row_layout(space.get());
-          rows = layout.width > 0 ? count / layout.width : 0;
-          if (rows * layout.width != count || first_row + rows > layout.rows) {
-            throw SystemError(path_ + ": rows " + std::to_string(first_row) + " to " +
-                              std::to_string(first_row + rows) + " asked of dataset " + dataset +
-                              ", which has " + std::to_string(layout.rows) + " rows of " +
-                              std::to_string(layout.width) + " numbers");
-          }
-          piece_rows = std::max<std::uint64_t>(
-              1, piece_bytes / std::max<std::uint64_t>(1, layout.width * number_size(type)));
-          pieces = static_cast<std::int64_t>((rows + piece_rows - 1) / piece_rows);
+          rows.layout = row_layout(space.get());
+          split(path_ + ": " + dataset, count, piece_bytes, rows);
+          pieces = static_cast<std::int64_t>((rows.count + rows.piece - 1) / rows.piece);
         }),
         communicator_);
-  const hid_t id = opened->get();
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &pieces, 1, MPI_INT64_T, MPI_MAX, communicator_),
             "MPI_Allreduce");
-  agree(
-      attempt([&] {
-        const Handle properties(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "make transfer properties");
-        if (size(communicator_) > 1) {
-          check_hdf5(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), "transfer together");
-        }
-        std::byte nothing{};
-        for (std::int64_t p = 0; p < pieces; ++p) {
-          const std::uint64_t done = std::min(rows, static_cast<std::uint64_t>(p) * piece_rows);
-          const std::uint64_t now = std::min(piece_rows, rows - done);
-          const Handle space(H5Dget_space(id), H5Sclose, "read the shape of " + dataset);
-          select_rows(space.get(), layout, first_row + done, now);
-          const hsize_t numbers = std::max<hsize_t>(1, now * layout.width);
-          const Handle memory(H5Screate_simple(1, &numbers, nullptr), H5Sclose, "describe memory");
-          if (now == 0) check_hdf5(H5Sselect_none(memory.get()), "select no rows");
-          void* const at =
-              now == 0 ? &nothing
-                       : static_cast<std::byte*>(data) + done * layout.width * number_size(type);
-          check_hdf5(
-              writing_
-                  ? H5Dwrite(id, memory_type(type), memory.get(), space.get(), properties.get(), at)
-                  : H5Dread(id, memory_type(type), memory.get(), space.get(), properties.get(), at),
-              (writing_ ? "write " : "read ") + dataset + " of " + path_);
-        }
-      }),
-      communicator_);
+  agree(attempt([&] {
+          const Handle properties(H5Pcreate(H5P_DATASET_XFER), H5Pclose,
+                                  "make transfer properties");
+          if (size(communicator_) > 1) {
+            check_hdf5(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), "write together");
+          }
+          for (std::int64_t p = 0; p < pieces; ++p) {
+            check_hdf5(
+                move_piece(rows, static_cast<std::uint64_t>(p), opened->get(), properties.get()),
+                (writing_ ? "write " : "read ") + dataset + " of " + path_);
+          }
+        }),
+        communicator_);
 }
 
 void Hdf5File::finish() {

@@ -8,7 +8,7 @@ Handle::Handle(hid_t id, Close close, const std::string& what) : id_(id), close_
   if (id < 0) throw SystemError("HDF5 cannot " + what + ": " + hdf5_reason());
 }
 
-void Handle::close(const std::string& what) {
+void Handle::close_now(const std::string& what) {
   const hid_t id = id_;
   id_ = -1;
   check_hdf5(close_(id), what);

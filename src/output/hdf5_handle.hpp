@@ -23,7 +23,7 @@ class Handle {
 
   hid_t get() const { return id_; }
   /// Closes now; SystemError when that fails.
-  void close(const std::string& what);
+  void close_now(const std::string& what);
 
  private:
   hid_t id_;

@@ -20,7 +20,7 @@ void add(double value, std::string& line) {
 }
 
 void add(std::int64_t value, std::string& line) {
-  line += (line.empty() ? "" : ",") + std::to_string(value);
+  line.append(line.empty() ? "" : ",").append(std::to_string(value));
 }
 
 /// Step of a complete row; nothing when it cannot be read.
@@ -62,11 +62,11 @@ std::string history_header(int dimension) {
   for (const char* name : {"kinetic", "internal", "escaped", "wall_work", "body_work", "total",
                            "elastic", "plastic_work", "viscous_heat", "filter_heat", "wall_heat",
                            "contact_heat", "friction_heat", "conduction"}) {
-    header += "," + std::string(name) + energy;
+    header.append(",").append(name).append(energy);
   }
-  header += ",momentum_x" + momentum + ",momentum_y" + momentum;
-  if (!plane) header += ",momentum_z" + momentum;
-  return header + ",guards [-]";
+  header.append(",momentum_x").append(momentum).append(",momentum_y").append(momentum);
+  if (!plane) header.append(",momentum_z").append(momentum);
+  return header.append(",guards [-]");
 }
 
 std::string history_line(const HistoryRow& row, int dimension) {

@@ -32,6 +32,17 @@ double ball_measure(double radius, int dimension) {
   return dimension == 2 ? disc : disc * radius * (4.0 / 3.0);
 }
 
+double summed_measure(const std::vector<Void>& voids, int dimension) {
+  double sum = 0.0, lost = 0.0;
+  for (const Void& v : voids) {
+    const double term = ball_measure(v.radius, dimension) - lost;
+    const double next = sum + term;
+    lost = (next - sum) - term;
+    sum = next;
+  }
+  return sum;
+}
+
 AxisRange centre_range(const Block& block, double keep_out, double radius, int axis) {
   if (block.periodic[axis]) return {0.0, block.size[axis]};
   const double margin = keep_out + radius;

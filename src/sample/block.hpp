@@ -30,6 +30,10 @@ double block_measure(const Block& block);
 /// Area of a disc (2-D, m^2) or volume of a ball (3-D, m^3).
 double ball_measure(double radius, int dimension);
 
+/// Sum of the measures of voids, each on its own, m^2 or m^3; compensated, so that a hundred
+/// thousand equal voids are summed to the last bits.
+double summed_measure(const std::vector<Void>& voids, int dimension);
+
 /// Where the centre of a void of this radius may lie along an axis, m: anywhere on a periodic axis,
 /// else with keep_out between its surface and both sides. Empty (high < low) when it cannot fit.
 AxisRange centre_range(const Block& block, double keep_out, double radius, int axis);

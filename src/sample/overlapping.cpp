@@ -65,8 +65,11 @@ std::size_t find_count(const Sample& sample, const Block& block) {
     if (!(next < static_cast<double>(most))) throw_no_room(sample, count, reached);
     const std::size_t rounded =
         std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(next)));
-    if (rounded == count) break;
+    const double change =
+        std::fabs(static_cast<double>(rounded) / static_cast<double>(count) - 1.0);
     count = rounded;
+    // The common factor on the radii does what is left.
+    if (change < 2e-3) break;
   }
   return count;
 }
@@ -110,7 +113,7 @@ Bracket find_bracket(const Draw& drawn, const Sample& sample) {
 
 /// Root of fraction - target by false position with the Illinois weights, which cannot lose it.
 double find_scale(const Draw& drawn, const Sample& sample) {
-  const double enough = drawn.packing.block.dimension == 2 ? 1e-13 : 1e-9;
+  const double enough = drawn.packing.block.dimension == 2 ? 1e-13 : 1e-6;
   Bracket b = find_bracket(drawn, sample);
   double best = -b.miss_low < b.miss_high ? b.low : b.high;
   double least = std::min(-b.miss_low, b.miss_high);

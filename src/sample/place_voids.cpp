@@ -38,6 +38,13 @@ void check_sample(const Sample& sample, const Block& block) {
     throw InputError("sample.void_radius = " + length_text(sample.void_radius) +
                      ". Allowed is a positive length in m.");
   }
+  const double expected =
+      sample.porosity * block_measure(block) / ball_measure(sample.void_radius, block.dimension);
+  if (expected > 1e7) {
+    throw InputError("sample.void_radius = " + length_text(sample.void_radius) + " asks for " +
+                     short_number(expected) +
+                     " voids. Allowed are at most 1e7. Raise sample.void_radius.");
+  }
   const double most = block.dimension == 2 ? 0.65 : 0.95;
   if (sample.overlap && sample.porosity > most) {
     throw InputError("sample.porosity = " + short_number(sample.porosity) +
@@ -47,39 +54,48 @@ void check_sample(const Sample& sample, const Block& block) {
   }
 }
 
-/// Radii whose measures sum up to the target exactly: as many voids as come nearest to it, then one
-/// common factor.
-std::vector<double> matching_radii(const Sample& sample, const Block& block) {
-  const double target = sample.porosity * block_measure(block);
+[[noreturn]] void throw_too_few(const Sample& sample, const Block& block) {
   const double each = ball_measure(sample.void_radius, block.dimension);
-  // exp(2.5 spread) bounds how much smaller than the median all radii could be.
-  const double expected = target / each;
-  const double shrink = std::exp(2.5 * sample.void_spread * block.dimension);
-  const bool equal = sample.void_spread <= 0.0;
-  std::vector<double> radii = draw_radii(
-      sample,
-      static_cast<std::size_t>(equal ? std::round(expected) : std::ceil(expected * shrink)));
+  throw InputError("sample.porosity = " + short_number(sample.porosity) +
+                   " asks for less than half a void: one void of radius " +
+                   length_text(sample.void_radius) + " makes " +
+                   short_number(each / block_measure(block)) +
+                   " of the block. Lower sample.void_radius, raise sample.porosity, or place the "
+                   "void with [[void]].");
+}
+
+/// Number of the first `radii` whose measures sum up to nearest the target.
+std::size_t nearest_count(const std::vector<double>& radii, double target, int dimension) {
   double sum = 0.0;
   std::size_t count = 0;
   while (count < radii.size()) {
-    const double next = ball_measure(radii[count], block.dimension);
-    if (!equal && sum + 0.5 * next > target) break;
+    const double next = ball_measure(radii[count], dimension);
+    if (sum + 0.5 * next > target) break;
     sum += next;
     ++count;
   }
-  if (count == 0) {
-    throw InputError("sample.porosity = " + short_number(sample.porosity) +
-                     " asks for less than half a void: one void of radius " +
-                     length_text(sample.void_radius) + " makes " +
-                     short_number(each / block_measure(block)) +
-                     " of the block. Lower sample.void_radius, raise sample.porosity, or place the "
-                     "void with [[void]].");
-  }
-  radii.resize(count);
-  const double ratio = target / sum;
+  return count;
+}
+
+/// Voids, largest first, whose measures sum up to the target exactly: as many as come nearest to
+/// it, then one common factor on all radii. Their centres are not set.
+std::vector<Void> matching_voids(const Sample& sample, const Block& block) {
+  const double target = sample.porosity * block_measure(block);
+  const double expected = target / ball_measure(sample.void_radius, block.dimension);
+  // No radius is smaller than exp(-2.5 spread) times the median: so many are enough.
+  const double most = expected * std::exp(2.5 * sample.void_spread * block.dimension) + 1.0;
+  const std::vector<double> radii = draw_radii(sample, static_cast<std::size_t>(most));
+  const std::size_t count = nearest_count(radii, target, block.dimension);
+  if (count == 0) throw_too_few(sample, block);
+  std::vector<Void> voids;
+  for (std::size_t i = 0; i < count; ++i) voids.push_back({.center = {}, .radius = radii[i]});
+  const double ratio = target / summed_measure(voids, block.dimension);
   const double factor = block.dimension == 2 ? std::sqrt(ratio) : std::cbrt(ratio);
-  for (double& r : radii) r *= factor;
-  return radii;
+  for (Void& v : voids) v.radius *= factor;
+  // Large voids are placed first: they would find no place between small ones.
+  std::stable_sort(voids.begin(), voids.end(),
+                   [](const Void& a, const Void& b) { return a.radius > b.radius; });
+  return voids;
 }
 
 std::string crowding_text(const Packing& packing) {
@@ -118,12 +134,8 @@ std::vector<Void> place_apart(const Sample& sample, const Block& block) {
                   .ligament = sample.ligament,
                   .keep_out = sample.keep_out,
                   .seed = sample.seed,
-                  .voids = {}};
-  std::vector<double> radii = matching_radii(sample, block);
-  // Large voids first: they would find no place between small ones.
-  std::sort(radii.begin(), radii.end(), std::greater<>());
-  require_room(sample, block, radii.front());
-  for (const double r : radii) packing.voids.push_back({.center = {}, .radius = r});
+                  .voids = matching_voids(sample, block)};
+  require_room(sample, block, packing.voids.front().radius);
   if (!add_in_sequence(packing)) {
     if (!relax(packing)) throw_not_packed(sample, packing);
     shake(packing);

@@ -98,7 +98,8 @@ double covered_top(const std::vector<Disc>& discs, double width, double height) 
   double length = 0.0;
   double reached = 0.0;
   for (const Interval& c : covered) {
-    if (c.end <= reached) continue;
+    // The second test drops images that lie beside the rectangle.
+    if (c.end <= reached || c.end <= c.begin) continue;
     length += c.end - std::max(c.begin, reached);
     reached = c.end;
   }

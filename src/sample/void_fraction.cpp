@@ -85,11 +85,7 @@ double ball_union(const std::vector<Void>& balls, const Block& block) {
 double void_fraction(const std::vector<Void>& voids, const Block& block) {
   if (voids.empty()) return 0.0;
   const double whole = block_measure(block);
-  if (stand_apart(voids, block)) {
-    double sum = 0.0;
-    for (const Void& v : voids) sum += ball_measure(v.radius, block.dimension);
-    return sum / whole;
-  }
+  if (stand_apart(voids, block)) return summed_measure(voids, block.dimension) / whole;
   const double taken = block.dimension == 2 ? disc_union(voids, block) : ball_union(voids, block);
   return taken / whole;
 }

@@ -30,11 +30,11 @@ bool whole_multiple(double value, double unit) {
   return nearest >= 1.0 && std::abs(ratio - nearest) <= tolerance * nearest;
 }
 
-/// How a problem of a key begins: it was given, or it stayed at its default.
-std::string wrong(const Report& report, const char* path, double found,
+/// A problem of a key that was given with a wrong value, or not given at all.
+std::string wrong(const Report& report, const char* path, const std::string& found,
                   const std::string& allowed) {
   if (!report.origins.contains(path)) return "missing, give " + allowed;
-  return "found " + plain_number(found) + ", allowed " + allowed;
+  return "found " + found + ", allowed " + allowed;
 }
 
 std::string indexed(const char* table, std::size_t index, const char* key) {
@@ -115,16 +115,17 @@ void check_materials(const Scene& scene, Report& report) {
 void check_voids_of_sample(const Sample& sample, Report& report) {
   if (good(report, {"sample.void_radius"}) && !(sample.void_radius > 0.0)) {
     add_problem("sample.void_radius",
-                wrong(report, "sample.void_radius", sample.void_radius,
+                wrong(report, "sample.void_radius", plain_number(sample.void_radius) + " m",
                       "a number > 0 (m) with kind = \"random_voids\""),
                 report);
   }
   if (good(report, {"sample.porosity", "sample.porosity_definition"}) &&
       !(sample.porosity > 0.0 && sample.porosity <= greatest_void_fraction)) {
-    add_problem("sample.porosity",
-                wrong(report, "sample.porosity", sample.porosity,
-                      "a void fraction > 0 and <= 0.65 with kind = \"random_voids\""),
-                report);
+    add_problem(
+        "sample.porosity",
+        wrong(report, "sample.porosity", "a void fraction of " + plain_number(sample.porosity),
+              "a void fraction > 0 and <= 0.65 with kind = \"random_voids\""),
+        report);
   }
   if (good(report, {"sample.ligament", "sample.overlap"}) && sample.overlap &&
       sample.ligament > 0.0) {

@@ -1,0 +1,198 @@
+// What is read from a scene, and that a written scene reads back as the same.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "poreshock/scene/read_scene.hpp"
+#include "scene_text.hpp"
+
+namespace poreshock {
+namespace {
+
+Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scene(text, "s.toml", overrides);
+}
+
+/// True when the written scene reads back as the same and writes the same text again.
+void expect_round_trip(const Scene& scene) {
+  const std::string text = write_scene(scene);
+  const Scene again = parse_scene(text, "written");
+  EXPECT_TRUE(again == scene) << text;
+  EXPECT_EQ(write_scene(again), text);
+}
+
+TEST(Scenes, Defaults) {
+  const Scene scene = parse(small_scene());
+  EXPECT_EQ(scene.title, "");
+  EXPECT_EQ(scene.dimension, 2);
+  EXPECT_EQ(scene.thermal, Thermal::conserving);
+  EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{10, 20, 0}));
+  EXPECT_EQ(scene.domain.periodic, (std::array<bool, 2>{false, false}));
+  EXPECT_EQ(scene.boundary, Boundary{});
+  EXPECT_EQ(scene.sample.height, 2e-4);
+  EXPECT_EQ(scene.sample.particles_per_cell, 2);
+  EXPECT_EQ(scene.materials[0].T0, 300.0);
+  EXPECT_FALSE(scene.materials[0].spall.has_value());
+  EXPECT_EQ(scene.time.cfl, 0.35);
+  EXPECT_EQ(scene.transfer, Transfer{});
+  EXPECT_EQ(scene.viscosity, Viscosity{});
+  EXPECT_EQ(scene.output.beat, 5e-9);
+  EXPECT_EQ(scene.output.history, 5e-9);
+  EXPECT_EQ(scene.output.fields.size(), 14u);
+  EXPECT_EQ(scene.morphology.pixel, 1e-5);
+  EXPECT_EQ(scene.morphology.every, 0.0);
+  EXPECT_EQ(scene.checkpoint, Checkpoint{});
+}
+
+TEST(Scenes, EveryKeyOf2D) {
+  const Scene scene = parse(rich_2d);
+  EXPECT_EQ(scene.title, "a \"quoted\" \\ title\twith a tab");
+  EXPECT_EQ(scene.thermal, Thermal::paper);
+  EXPECT_EQ(scene.boundary.low, (Side{SideKind::wall, -12.3456789012345678}));
+  EXPECT_EQ(scene.boundary.lateral[0], SideKind::symmetry);
+  EXPECT_EQ(scene.materials.size(), 2u);
+  EXPECT_EQ(scene.materials[0].plastic_heat, PlasticHeat::dissipation);
+  EXPECT_EQ(scene.materials[0].spall, 1.2e9);
+  EXPECT_EQ(scene.sample.material, 1);
+  EXPECT_EQ(scene.sample.seed, 9223372036854775807u);
+  ASSERT_EQ(scene.bodies.size(), 3u);
+  EXPECT_EQ(scene.bodies[0].spin, (Triple{0.0, 0.0, 1e5}));
+  EXPECT_EQ(scene.bodies[0].velocity, (Triple{1.0, -2.0, 0.0}));
+  EXPECT_EQ(scene.bodies[0].material, 1);
+  EXPECT_EQ(scene.bodies[0].grain, 3);
+  EXPECT_EQ(scene.bodies[1].region.points[2], (Triple{0.0, 2.1e-4, 0.0}));
+  EXPECT_EQ(scene.bodies[2].region.inner_radius, 2.1e-5);
+  EXPECT_EQ(scene.bodies[2].region.radius, 2.2e-5);
+  EXPECT_EQ(scene.bodies[2].material, 0);
+  EXPECT_EQ(scene.voids[0].high, (Triple{1e-5, 1e-5, 0.0}));
+  EXPECT_EQ(scene.loading, (Loading{1100.0, {0.1, 0.3, 0.0}}));
+  EXPECT_EQ(scene.body_force, (Triple{0.0, -9.81, 0.0}));
+  EXPECT_EQ(scene.transfer,
+            (Transfer{ShapeFunction::quadratic, VelocityTransfer::flip, 1e5, 0.25}));
+  EXPECT_EQ(scene.time.max_steps, 1000000000000);
+  EXPECT_EQ(scene.output.fields, (std::vector<std::string>{"stress", "id"}));
+  EXPECT_EQ(scene.output.precision, Precision::single_precision);
+  EXPECT_EQ(scene.checkpoint, (Checkpoint{5, 4e-9, 600.0, 7}));
+}
+
+TEST(Scenes, EveryKeyOf3D) {
+  const Scene scene = parse(rich_3d);
+  EXPECT_EQ(scene.dimension, 3);
+  EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{10, 8, 30}));
+  EXPECT_EQ(scene.domain.periodic, (std::array<bool, 2>{true, false}));
+  EXPECT_EQ(scene.boundary.low, (Side{SideKind::symmetry, 0.0}));
+  EXPECT_EQ(scene.boundary.high, (Side{SideKind::free, 0.0}));
+  EXPECT_EQ(scene.boundary.lateral, (std::array<SideKind, 2>{SideKind::periodic, SideKind::wall}));
+  EXPECT_EQ(scene.bodies[0].spin, (Triple{4.0, 5.0, 6.0}));
+  EXPECT_EQ(scene.bodies[0].region.center, (Triple{5e-5, 4e-5, 1e-4}));
+  EXPECT_EQ(scene.voids[0].shape, BodyShape::ring);
+  EXPECT_EQ(scene.loading.frame, (Triple{1.0, 2.0, 3.0}));
+}
+
+TEST(Scenes, OneLateralKindServesAllAxesThatAreNotPeriodic) {
+  const Scene scene = parse(rich_3d, {"boundary.lateral=free"});
+  EXPECT_EQ(scene.boundary.lateral, (std::array<SideKind, 2>{SideKind::periodic, SideKind::free}));
+}
+
+TEST(Scenes, RoundTrips) {
+  expect_round_trip(parse(small_scene()));
+  expect_round_trip(parse(rich_2d));
+  expect_round_trip(parse(rich_3d));
+  expect_round_trip(parse(rich_3d, {"domain.periodic=true", "boundary.lateral=periodic"}));
+}
+
+TEST(Scenes, RoundTripKeepsEveryBit) {
+  for (const double value : {0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, 123456789012345678.0,
+                             9.3e18, 2.2250738585072014e-308}) {
+    Scene scene = parse(small_scene());
+    scene.viscosity.linear = value;
+    EXPECT_EQ(parse(write_scene(scene)).viscosity.linear, value);
+  }
+}
+
+TEST(Scenes, PorosityDefinition) {
+  const std::vector<std::string> voids{"sample.kind=random_voids", "sample.void_radius=1e-5",
+                                       "sample.porosity=0.25"};
+  const Scene fraction = parse(small_scene(), voids);
+  EXPECT_EQ(fraction.sample.porosity, 0.25);
+  std::vector<std::string> distension = voids;
+  distension.push_back("sample.porosity_definition=distension_minus_1");
+  const Scene scene = parse(small_scene(), distension);
+  EXPECT_EQ(scene.sample.porosity, 0.2);
+  EXPECT_EQ(scene.sample.porosity_definition, PorosityDefinition::void_fraction);
+  expect_round_trip(scene);
+}
+
+TEST(Scenes, Thresholds) {
+  const std::string speed = "[morphology]\nfields = [\"speed\"]\nthresholds = ";
+  const auto levels = [&](const std::string& text) {
+    return parse(small_scene(speed + text + "\n")).morphology.fields.at(0).thresholds;
+  };
+  EXPECT_EQ(levels("[1, 2.5, 3]"), (std::vector<double>{1.0, 2.5, 3.0}));
+  EXPECT_EQ(levels("{ from = 300, to = 330, step = 10 }"),
+            (std::vector<double>{300.0, 310.0, 320.0, 330.0}));
+  // 0.1 + 2 x 0.1 is not 0.3 in binary: `to` must not be lost, and no threshold lies beyond it.
+  EXPECT_EQ(levels("{ from = 0.1, to = 0.3, step = 0.1 }"),
+            (std::vector<double>{0.1, 0.1 + 0.1, 0.1 + 2 * 0.1}));
+  EXPECT_EQ(levels("{ from = 0, to = 1, step = 0.3 }"),
+            (std::vector<double>{0.0, 0.3, 0.6, 3 * 0.3}));
+  EXPECT_EQ(levels("{ from = 5, to = 5, step = 1 }"), std::vector<double>{5.0});
+  EXPECT_EQ(levels("{ speed = { from = 1, to = 2, step = 1 } }"), (std::vector<double>{1.0, 2.0}));
+
+  const Scene scene = parse(rich_2d);
+  ASSERT_EQ(scene.morphology.fields.size(), 2u);
+  EXPECT_EQ(scene.morphology.fields[0].name, "pressure");
+  EXPECT_EQ(scene.morphology.fields[0].thresholds, (std::vector<double>{-1e9, 0.0, 1e9}));
+  EXPECT_EQ(scene.morphology.fields[1].name, "temperature");
+  ASSERT_EQ(scene.morphology.fields[1].thresholds.size(), 101u);
+  EXPECT_EQ(scene.morphology.fields[1].thresholds[100], 310.0 + 100 * 0.1);
+}
+
+TEST(Scenes, Overrides) {
+  EXPECT_EQ(parse(small_scene(), {"time.end=2e-7"}).time.end, 2e-7);
+  EXPECT_EQ(parse(small_scene(), {"time.end=2e-7", "time.end=3e-7"}).time.end, 3e-7);
+  EXPECT_EQ(parse(small_scene(), {"thermal=paper"}).thermal, Thermal::paper);
+  EXPECT_EQ(parse(small_scene(), {"title=\"two words\""}).title, "two words");
+  EXPECT_EQ(parse(small_scene(), {"material.0.yield=5"}).materials[0].yield, 5.0);
+  EXPECT_EQ(parse(small_scene(), {"loading.velocity=7"}).loading.velocity, 7.0);
+  const Scene moved =
+      parse(small_scene(), {"boundary.low={kind=\"wall\", velocity=3}", "boundary.low.velocity=4"});
+  EXPECT_EQ(moved.boundary.low, (Side{SideKind::wall, 4.0}));
+  EXPECT_EQ(parse(rich_2d, {"body.0.center.1=2.6e-4"}).bodies[0].region.center[1], 2.6e-4);
+  const Scene step = parse(rich_2d, {"morphology.thresholds.temperature.step=5"});
+  EXPECT_EQ(step.morphology.fields[1].thresholds, (std::vector<double>{310.0, 315.0, 320.0}));
+}
+
+TEST(Scenes, InputFolder) {
+  int scenes = 0;
+  const std::filesystem::path folder = std::filesystem::path(PORESHOCK_SOURCE_DIR) / "input";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    SCOPED_TRACE(entry.path().string());
+    ++scenes;
+    expect_round_trip(read_scene(entry.path().string()));
+  }
+  EXPECT_GE(scenes, 5);
+}
+
+TEST(Scenes, PaperFigure1) {
+  const std::string folder = std::string(PORESHOCK_SOURCE_DIR) + "/input/paper/";
+  const Scene scene = read_scene(folder + "fig1.toml");
+  EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{200, 1100, 0}));
+  EXPECT_EQ(scene.boundary.lateral[0], SideKind::periodic);
+  EXPECT_EQ(scene.boundary.low, (Side{SideKind::wall, 0.0}));
+  EXPECT_EQ(scene.thermal, Thermal::paper);
+  EXPECT_EQ(2.0 * scene.sample.void_radius / scene.domain.cell, 16.0);
+  const std::vector<double>& levels = scene.morphology.fields.at(0).thresholds;
+  ASSERT_EQ(levels.size(), 70u);
+  EXPECT_EQ(levels.front(), 310.0);
+  EXPECT_EQ(levels.back(), 1000.0);
+  Scene coarse = read_scene(folder + "fig1_coarse.toml", {"domain.cell=5e-6"});
+  coarse.title = scene.title;
+  EXPECT_TRUE(coarse == scene);
+}
+
+}  // namespace
+}  // namespace poreshock

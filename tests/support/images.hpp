@@ -52,7 +52,8 @@ inline Image random_image(Texture texture, std::array<int, 3> size, std::array<b
   return image;
 }
 
-/// The image whose pixel i is white (1, else 0) where bit i is set; all material.
+/// The image whose pixel i is white (1, else 0) where bit i is set, pixels from 64 on black; all
+/// material.
 inline Image image_of_bits(std::uint64_t bits, std::array<int, 3> size,
                            std::array<bool, 2> periodic) {
   Image image;
@@ -63,7 +64,7 @@ inline Image image_of_bits(std::uint64_t bits, std::array<int, 3> size,
   image.periodic_y = periodic[1];
   image.solid.assign(image.size(), 1);
   for (std::size_t i = 0; i < image.size(); ++i) {
-    image.values.push_back(static_cast<double>((bits >> i) & 1));
+    image.values.push_back(i < 64 ? static_cast<double>((bits >> i) & 1) : 0.0);
   }
   return image;
 }

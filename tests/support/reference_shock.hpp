@@ -244,7 +244,11 @@ inline Crushed crush(const Solid& m, double porosity, double up) {
     return macroscopic(alpha, volume_at(alpha)) - crush_pressure(m.yield, alpha);
   };
   Crushed c;
-  c.distension = 1.0 + std::exp(first_root(misfit, std::log(initial - 1.0), -36.0, 200));
+  // Closed to the last digit of a double where the curve asks for less than e^-36.
+  constexpr double closed = -36.0;
+  c.distension = misfit(closed) > 0.0
+                     ? 1.0
+                     : 1.0 + std::exp(first_root(misfit, std::log(initial - 1.0), closed, 200));
   c.state.volume = volume_at(c.distension);
   c.state.velocity = up;
   c.state.pressure = c.state.stress = macroscopic(c.distension, c.state.volume);

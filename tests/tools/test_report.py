@@ -31,34 +31,50 @@ class Report(unittest.TestCase):
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', text), [])
         self.assertNotIn("http", re.sub(r'base64,[^"]*', "", text))
         self.assertNotIn("Missing:", text)
+        self.assertIn("Thermal mode: paper.", text)
         self.assertEqual({path.name for path in (self.folder / "pictures").iterdir()}, PICTURES)
 
     def test_final_numbers(self):
-        write_output(self.folder, thermal="conserving")
-        text = page.write(self.folder).read_text()
+        write_output(self.folder)
+        text = page.final_numbers(self.folder, "A title", "conserving")
         for label, value in (("thermal mode", "conserving"), ("steps", "1 000"), ("particles", "48 000"),
                              ("wall time [s]", "123.5"), ("guards (clamps and floors hit)", "3"),
                              ("energy drift at the end [-]", "1e-11")):
             cell = re.search(f"<td>{re.escape(label)}</td><td[^>]*>(.*?)</td>", text)
             self.assertEqual(cell and cell[1], value, label)
-        self.assertIn("Thermal mode: conserving.", text)
         # The phase that took longest comes first.
         self.assertLess(text.index("<td>stress</td>"), text.index("<td>particles_to_grid</td>"))
 
+    def test_timings_with_phases_as_a_list_or_by_name(self):
+        self.folder.mkdir()
+        for phases in ('[{"name": "sort", "min": 1, "avg": 2.5, "max": null, "calls": 7}]',
+                       '{"sort": {"min": 1, "avg": 2.5, "calls": 7}}'):
+            (self.folder / "timings.json").write_text(f'{{"ranks": 2, "phases": {phases}}}')
+            found = folder.read_timings(self.folder)
+            self.assertEqual(str(found["phases"]), "[('sort', 1, 2.5, nan, 7)]")
+            self.assertIn("<td>sort</td>", page.final_numbers(self.folder, "A title", "paper"))
+
     def test_three_dimensional_snapshots(self):
         write_output(self.folder, dimension=3)
-        self.assertNotIn("Missing:", page.write(self.folder).read_text())
+        particles = folder.read_particles(self.folder / "snapshot_000004.h5",
+                                          ("position", "temperature", "mass", "density"))
+        across, along, temperature, spacing = figures.slice_of(particles)
+        self.assertAlmostEqual(spacing, 5e-6, places=12)
+        # Two of the eight layers across y lie near the middle.
+        self.assertEqual(len(across) / len(particles["mass"]), 2 / 8)
+        self.assertEqual(along.max(), particles["position"][:, 2].max())
+        text = page.picture(self.folder, "temperature", FIGURES[0], "", lambda: figures.temperature(self.folder))
+        self.assertIn("<img", text)
 
     def test_every_missing_part_is_named(self):
-        write_output(self.folder)
-        for pattern, words in (("morphology_*.h5", "there is no morphology.h5"),
-                               ("timings.json", "there is no timings.json"),
-                               ("history.csv", "there is no history.csv"),
-                               ("snapshot_*.h5", "there is no snapshot_*.h5"),
-                               ("scene.toml", "there is no scene.toml")):
-            for path in self.folder.glob(pattern):
-                path.unlink()
-            self.assertIn(words, page.write(self.folder).read_text())
+        self.folder.mkdir()
+        text = page.write(self.folder).read_text()
+        for words in ("there is no morphology.h5", "there is no timings.json", "there is no history.csv",
+                      "there is no snapshot_*.h5", "there is no scene.toml"):
+            self.assertIn(words, text)
+        for title in FIGURES:
+            self.assertIn(f"Missing: {title}", text)
+        self.assertNotIn("<img", text)
 
     def test_damaged_files_are_no_reason_to_fail(self):
         write_output(self.folder)

@@ -145,6 +145,37 @@ class Commands(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("there is no scene file 'nothing.toml'", done.stderr)
 
+    def chain(self, on_signal):
+        """Lines and exit code of a chained Slurm job that is told that its time is over."""
+        for name in ("tools/stop_with_checkpoint.sh", "jobscripts/slurm_chain.sh"):
+            self.script(self.root / name, (ROOT / name).read_text())
+        # In the place of a run: `on_signal` is what USR1 makes it do; without it the run ends by itself.
+        wait = f"trap '{on_signal}; exit 0' USR1; echo ready; while :; do sleep 0.05; done" if on_signal else ""
+        self.script(self.root / "tools/mpirun", f'echo "run $*"\nmkdir -p out\n{wait}\n')
+        self.script(self.bin / "sbatch", 'echo "sbatch $*"\n')
+        self.script(self.bin / "squeue", "echo 2:00:00\n")
+        job = subprocess.Popen(
+            ["bash", "jobscripts/slurm_chain.sh", "s.toml", "out"], cwd=self.root, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            env=os.environ | {"PATH": f"{self.bin}:{os.environ['PATH']}", "SLURM_SUBMIT_DIR": str(self.root),
+                              "SLURM_NTASKS": "8", "SLURM_JOB_ID": "1", "SLURM_JOB_PARTITION": "long"})
+        lines = [job.stdout.readline().strip()]
+        if on_signal:
+            self.assertEqual(job.stdout.readline(), "ready\n")
+            job.send_signal(signal.SIGUSR1)
+        return lines + job.communicate(timeout=30)[0].splitlines(), job.returncode
+
+    def test_chain_submits_itself_until_the_run_is_done(self):
+        start = "run -n 8 build/release/poreshock run s.toml --output out"
+        stop = "Stopping: waiting for the checkpoint."
+        again = "sbatch --ntasks=8 --time=2:00:00 --partition=long jobscripts/slurm_chain.sh s.toml out"
+        self.assertEqual(self.chain("touch out/checkpoint_000010.h5"), ([start, stop, again], 0))
+        # The next job goes on; without a newer checkpoint the chain ends instead of running for ever.
+        lines, code = self.chain("true")
+        self.assertEqual((lines[:2], code), ([start + " --restart latest", stop], 1))
+        self.assertIn("wrote no checkpoint", lines[2])
+        self.assertEqual(self.chain(""), ([start + " --restart latest", "The run is done."], 0))
+
     def test_install_names_what_is_missing_and_updates_first(self):
         self.script(self.bin / "dpkg-query", '[[ ${!#} == metis* || ${!#} == libmetis-dev ]] || echo installed\n')
         self.script(self.bin / "apt-get", 'echo "apt-get $*"\n')

@@ -24,14 +24,14 @@ def choose_snapshots(times, most=6):
 def slice_of(particles):
     """Lateral and axial positions, temperatures and spacing of a plane piece of the particles.
 
-    In 3-D that is the middle slice across y, one and a half spacings to each side.
+    In 3-D that is the middle slice across y, one and a quarter spacings to each side.
     """
     position, temperature = particles["position"], particles["temperature"]
     dimension = position.shape[1]
     spacing = float(numpy.median(particles["mass"] / particles["density"])) ** (1.0 / dimension)
     if dimension == 3:
         middle = 0.5 * (position[:, 1].min() + position[:, 1].max())
-        near = numpy.abs(position[:, 1] - middle) < 1.5 * spacing
+        near = numpy.abs(position[:, 1] - middle) < 1.25 * spacing
         position, temperature = position[near], temperature[near]
     return position[:, 0], position[:, -1], temperature, spacing
 

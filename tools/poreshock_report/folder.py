@@ -24,13 +24,21 @@ def read_scene(folder):
 
 
 def read_timings(folder):
-    """timings.json as it is."""
+    """timings.json; `phases` becomes a list of (name, min, avg, max, calls), numbers that are null NaN."""
     path = folder / "timings.json"
     if not path.exists():
         raise Missing("there is no timings.json (it is written at the end of a run)")
     try:
-        return json.loads(path.read_text(errors="replace"))
-    except json.JSONDecodeError as error:
+        timings = json.loads(path.read_text(errors="replace"))
+        phases = timings.get("phases", [])
+        if isinstance(phases, dict):
+            phases = [{"name": name, **phase} for name, phase in phases.items()]
+        keys = ("min", "avg", "max", "calls")
+        known = {key: numpy.nan if value is None else value for key, value in timings.items()}
+        return known | {"phases": [
+            (phase["name"], *(numpy.nan if phase.get(key) is None else phase[key] for key in keys))
+            for phase in phases]}
+    except (json.JSONDecodeError, AttributeError, KeyError, TypeError) as error:
         raise Missing(f"timings.json cannot be read: {error}") from None
 
 

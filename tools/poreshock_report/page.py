@@ -110,9 +110,7 @@ def final_numbers(folder, title, thermal):
                   "particle_steps": "particle steps",
                   "rate_per_core": "particle steps per second and core"}
         rows += [(label, timings[name]) for name, label in wanted.items() if name in timings]
-        parts = [(name, *(phase.get(key, float("nan")) for key in ("min", "avg", "max", "calls")))
-                 for name, phase in timings.get("phases", {}).items() if phase.get("calls", 1)]
-        parts.sort(key=lambda part: -part[2])
+        parts = sorted(timings["phases"], key=lambda part: -part[2])
         phases = "<h2>Time per phase</h2>" + table(
             ("phase", "least rank [s]", "mean [s]", "most [s]", "calls"), parts)
     except reader.Missing as reason:

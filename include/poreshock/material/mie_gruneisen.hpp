@@ -9,13 +9,13 @@ namespace poreshock {
 
 /// Constants of the equation of state; make_mie_gruneisen fills the derived ones.
 struct MieGruneisen {
-  double density = 0.0;   ///< rho0, kg/m^3
-  double bulk = 0.0;      ///< rho0 c0^2, Pa
+  double density = 0.0;  ///< rho0, kg/m^3
+  double bulk = 0.0;     ///< rho0 c0^2, Pa
   double lambda = 0.0;
   double gamma = 0.0;
-  double cv = 0.0;        ///< J/(kg K)
-  double T0 = 0.0;        ///< K
-  double guard = 0.0;     ///< eta beyond which the reference curve continues by its tangent
+  double cv = 0.0;     ///< J/(kg K)
+  double T0 = 0.0;     ///< K
+  double guard = 0.0;  ///< eta beyond which the reference curve continues by its tangents
 };
 
 /// Reference curve at one compression: pressure (Pa), its slope dP/deta, energy (J/kg), dE/deta.
@@ -28,19 +28,24 @@ struct EquationOfState {
   double pressure, sound_speed2;
 };
 
+/// The derived constants from density (kg/m^3), c0 (m/s), lambda, gamma, cv (J/(kg K)) and T0 (K).
 MieGruneisen make_mie_gruneisen(double density, double c0, double lambda, double gamma, double cv,
                                 double T0);
 
-/// Hugoniot for V <= V0, isentrope linear in V for V > V0 (paper eq 5 with V0 in the denominator and
-/// the sign of the expansion branch that is stable), tangent beyond the guard.
+/// Hugoniot for V <= V0, isentrope linear in V for V > V0 (paper eq 5 with V0 in the denominator
+/// and the sign of the expansion branch that is stable); pressure and energy by their tangents
+/// beyond the guard.
 inline ReferencePoint reference_point(const MieGruneisen& eos, double eta) {
-  const double above = eta > 0.0 ? eta : 0.0;
-  const double inside = above < eos.guard ? above : eos.guard;
+  const double held = eta < eos.guard ? eta : eos.guard;
+  const double inside = held > 0.0 ? held : 0.0;
   const double f = 1.0 / (1.0 - eos.lambda * inside);
   const double slope = eos.bulk * (1.0 + eos.lambda * inside) * (f * f * f);
-  const double pressure = eos.bulk * inside * (f * f) + slope * (eta - inside);
+  const double pressure = eos.bulk * inside * (f * f) + slope * (held - inside);
   const double half_volume = 0.5 / eos.density;
-  return {pressure, slope, half_volume * pressure * eta, half_volume * (slope * eta + pressure)};
+  const double energy_slope = half_volume * (slope * held + pressure);
+  const double beyond = eta - held;
+  return {pressure + slope * beyond, slope, half_volume * pressure * held + energy_slope * beyond,
+          energy_slope};
 }
 
 /// P = P_r + gamma rho (E - E_r) and c^2 = (dP/drho)_S; `energy` is per mass without the elastic
@@ -66,10 +71,11 @@ inline EquationOfState paper_state(const MieGruneisen& eos, double density, doub
 /// Temperature along the reference curve, T_r(eta), tabulated (paper eq 6; T V^gamma constant in
 /// expansion). Between the nodes a cubic Hermite polynomial with the exact slope: error < 1e-6 K.
 struct TemperatureCurve {
-  double first = 0.0, step = 0.0;   ///< eta of node 0, spacing
-  std::vector<double> value, slope; ///< K, K per unit eta
+  double first = 0.0, step = 0.0;    ///< eta of node 0, spacing
+  std::vector<double> value, slope;  ///< K, K per unit eta
 };
 
+/// The table of a material; made once.
 TemperatureCurve make_temperature_curve(const MieGruneisen& eos);
 
 /// T_r at eta, K. Outside the table it continues by the tangent at its end (compression) or exactly

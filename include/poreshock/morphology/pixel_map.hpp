@@ -93,7 +93,8 @@ struct PixelField {
   std::vector<std::int64_t> coverage;       ///< owned rows: covered area in 2^-18 pixels
   std::int64_t capped = 0;   ///< particles, on all ranks, whose square was cut to max_side
   std::int64_t clamped = 0;  ///< particle values or densities, on all ranks, held to their range
-  std::int64_t skipped = 0;  ///< particles, on all ranks, without a finite position or size
+  std::int64_t skipped = 0;  ///< particles, on all ranks, without positive finite size and density,
+                             ///< or 2^31 pixels and more from the origin
 };
 
 /// Coverage of one whole pixel in PixelField::coverage.

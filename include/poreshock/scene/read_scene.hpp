@@ -8,9 +8,10 @@
 
 namespace poreshock {
 
-/// Reads a scene file and applies overrides such as "time.end=2e-7" (TOML values). Throws InputError
-/// whose text lists every problem found, one per line, as file:line:column: message. Not collective:
-/// call on rank 0 and broadcast the resolved text, or on all ranks when all see the file.
+/// Reads a scene file and applies overrides such as "time.end=2e-7" (TOML values). Throws
+/// InputError whose text lists every problem found, one per line, as file:line:column: message. Not
+/// collective: call on rank 0 and broadcast the resolved text, or on all ranks when all see the
+/// file.
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// The same from a text already in memory; `name` stands for the file in messages.

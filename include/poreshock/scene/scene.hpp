@@ -24,10 +24,10 @@ enum class Precision { double_precision, single_precision };
 
 /// The block of background cells.
 struct Domain {
-  Triple size{};                 ///< m, whole multiples of cell
-  double cell = 0.0;             ///< m
-  std::array<int, 3> cells{};    ///< derived: size / cell
-  std::array<bool, 2> periodic{};///< per lateral axis (x; x and y in 3-D)
+  Triple size{};                   ///< m, whole multiples of cell
+  double cell = 0.0;               ///< m
+  std::array<int, 3> cells{};      ///< derived: size / cell
+  std::array<bool, 2> periodic{};  ///< per lateral axis (x; x and y in 3-D)
   bool operator==(const Domain&) const = default;
 };
 
@@ -39,61 +39,61 @@ struct Side {
 };
 
 struct Boundary {
-  Side low;                                                            ///< shock axis, coordinate 0
-  Side high;                                                           ///< shock axis, coordinate size
-  std::array<SideKind, 2> lateral{SideKind::free, SideKind::free};     ///< both sides of x (and y)
+  Side low;                                                         ///< shock axis, coordinate 0
+  Side high;                                                        ///< shock axis, coordinate size
+  std::array<SideKind, 2> lateral{SideKind::free, SideKind::free};  ///< both sides of x (and y)
   bool operator==(const Boundary&) const = default;
 };
 
 /// A closed region of space. 2-D: disc, box, ring, polygon; 3-D: disc is a ball, ring a shell.
 struct Region {
   BodyShape shape = BodyShape::disc;
-  Triple center{};                 ///< m: disc, ring
-  double radius = 0.0;             ///< m: disc; outer radius of a ring
-  double inner_radius = 0.0;       ///< m: ring
-  Triple low{}, high{};            ///< m: box corners
-  std::vector<Triple> points;      ///< m: polygon corners in order (2-D only)
+  Triple center{};             ///< m: disc, ring
+  double radius = 0.0;         ///< m: disc; outer radius of a ring
+  double inner_radius = 0.0;   ///< m: ring
+  Triple low{}, high{};        ///< m: box corners
+  std::vector<Triple> points;  ///< m: polygon corners in order (2-D only)
   bool operator==(const Region&) const = default;
 };
 
 /// A piece of material placed explicitly.
 struct Body {
   Region region;
-  int material = 0;                ///< index into Scene::materials
+  int material = 0;  ///< index into Scene::materials
   int grain = 0;
-  Triple velocity{};               ///< m/s, added to the loading velocity
-  Triple spin{};                   ///< rad/s about the region's centroid; 2-D uses z only
+  Triple velocity{};  ///< m/s, added to the loading velocity
+  Triple spin{};      ///< rad/s about the region's centroid; 2-D uses z only
   bool operator==(const Body&) const = default;
 };
 
 /// A generated block of material from the low wall up to `height`, over the whole width.
 struct Sample {
   SampleKind kind = SampleKind::none;
-  int material = 0;                ///< index into Scene::materials
-  double height = 0.0;             ///< m
-  double porosity = 0.0;           ///< target void fraction (after porosity_definition is applied)
+  int material = 0;       ///< index into Scene::materials
+  double height = 0.0;    ///< m
+  double porosity = 0.0;  ///< target void fraction (after porosity_definition is applied)
   PorosityDefinition porosity_definition = PorosityDefinition::void_fraction;
-  double void_radius = 0.0;        ///< m, median radius
-  double void_spread = 0.0;        ///< standard deviation of ln(radius); 0 = equal
-  double ligament = 0.0;           ///< m, least solid between two voids (not with overlap)
-  double keep_out = 0.0;           ///< m, least solid between a void and the wall or the top
+  double void_radius = 0.0;  ///< m, median radius
+  double void_spread = 0.0;  ///< standard deviation of ln(radius); 0 = equal
+  double ligament = 0.0;     ///< m, least solid between two voids (not with overlap)
+  double keep_out = 0.0;     ///< m, least solid between a void and the wall or the top
   bool overlap = false;
   std::uint64_t seed = 1;
-  int particles_per_cell = 2;      ///< per direction; also used for bodies
+  int particles_per_cell = 2;  ///< per direction; also used for bodies
   bool operator==(const Sample&) const = default;
 };
 
 struct Loading {
-  double velocity = 0.0;           ///< m/s towards the low wall
-  Triple frame{};                  ///< m/s, added to everything, walls included
+  double velocity = 0.0;  ///< m/s towards the low wall
+  Triple frame{};         ///< m/s, added to everything, walls included
   bool operator==(const Loading&) const = default;
 };
 
 struct Transfer {
   ShapeFunction shape = ShapeFunction::cubic;
   VelocityTransfer velocity = VelocityTransfer::apic;
-  double damping = 0.0;            ///< 1/s, FLIP only
-  double averaging = 0.0;          ///< 0 (off) ... 1 share of the averaged dilatation
+  double damping = 0.0;    ///< 1/s, FLIP only
+  double averaging = 0.0;  ///< 0 (off) ... 1 share of the averaged dilatation
   bool operator==(const Transfer&) const = default;
 };
 
@@ -104,39 +104,39 @@ struct Viscosity {
 };
 
 struct TimeControl {
-  double end = 0.0;                ///< s
+  double end = 0.0;  ///< s
   double cfl = 0.35;
-  std::int64_t max_steps = 0;      ///< 0 = no limit
+  std::int64_t max_steps = 0;  ///< 0 = no limit
   bool operator==(const TimeControl&) const = default;
 };
 
 struct Output {
-  double beat = 5e-9;              ///< s; steps land on its multiples
-  double snapshot = 0.0;           ///< s between snapshots, 0 = only first and last
-  double history = 0.0;            ///< s between history rows, derived default: beat
-  std::vector<std::string> fields; ///< particle datasets of a snapshot; default all
-  bool grid = false;               ///< also write grid fields
+  double beat = 5e-9;               ///< s; steps land on its multiples
+  double snapshot = 0.0;            ///< s between snapshots, 0 = only first and last
+  double history = 0.0;             ///< s between history rows, derived default: beat
+  std::vector<std::string> fields;  ///< particle datasets of a snapshot; default all
+  bool grid = false;                ///< also write grid fields
   Precision precision = Precision::double_precision;
   bool operator==(const Output&) const = default;
 };
 
 struct MorphologyField {
-  std::string name;                ///< temperature, pressure, density, speed, von_mises, plastic_strain
+  std::string name;  ///< temperature, pressure, density, speed, von_mises, plastic_strain
   std::vector<double> thresholds;  ///< in the unit of the field, ascending
   bool operator==(const MorphologyField&) const = default;
 };
 
 struct Morphology {
-  double every = 0.0;              ///< s, 0 = off
-  double pixel = 0.0;              ///< m, cell times a power of two (2^-3 ... 2^3)
+  double every = 0.0;  ///< s, 0 = off
+  double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3)
   std::vector<MorphologyField> fields;
   bool operator==(const Morphology&) const = default;
 };
 
 struct Checkpoint {
-  std::int64_t every_steps = 0;    ///< 0 = off
-  double every_time = 0.0;         ///< s of simulated time, 0 = off
-  double every_wall = 0.0;         ///< s of wall time, 0 = off
+  std::int64_t every_steps = 0;  ///< 0 = off
+  double every_time = 0.0;       ///< s of simulated time, 0 = off
+  double every_wall = 0.0;       ///< s of wall time, 0 = off
   int keep = 2;
   bool operator==(const Checkpoint&) const = default;
 };
@@ -152,7 +152,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Region> voids;
   Loading loading;
-  Triple body_force{};             ///< m/s^2
+  Triple body_force{};  ///< m/s^2
   Transfer transfer;
   Viscosity viscosity;
   TimeControl time;

@@ -1,0 +1,37 @@
+#pragma once
+// The commands of the program.
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+#include "poreshock/core/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace poreshock {
+
+enum class CommandKind { run, check, sample, info };
+
+/// What the command line asks for.
+struct Command {
+  CommandKind kind = CommandKind::run;
+  std::string file;                    ///< scene, or the file to describe
+  std::vector<std::string> overrides;  ///< --set table.key=value
+  std::string output;
+  std::string restart;                 ///< file or "latest"
+  double wall_limit = 0.0;             ///< s
+  bool force = false;
+  bool quiet = false;
+};
+
+/// Declares all commands and their options. Not collective.
+void declare(Command& command, CLI::App& app);
+
+/// Carries out a command. Throws InputError, StateError, SystemError. Collective.
+ExitCode execute(const Command& command, MPI_Comm communicator);
+
+}  // namespace poreshock

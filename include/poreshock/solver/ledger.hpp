@@ -1,0 +1,58 @@
+#pragma once
+// Where every joule is: exact cumulative sums of what nodes, transfers and sides take and give, and
+// totals over the particles.
+
+#include "poreshock/output/history.hpp"
+#include "poreshock/particles/particles.hpp"
+#include "poreshock/physics/node_ledger.hpp"
+#include "poreshock/scene/scene.hpp"
+
+namespace poreshock {
+
+/// Counters of clamps and floors, cumulative on this rank.
+struct Guards {
+  std::int64_t compression = 0;    ///< reference curve continued by its tangent
+  std::int64_t sound_speed = 0;    ///< sound speed floored
+  std::int64_t wall_crossing = 0;  ///< particle put back onto a wall
+  std::int64_t temperature = 0;    ///< temperature floored in output
+};
+
+/// Cumulative sums of this rank since the start; only the sum over all ranks has a meaning.
+struct Ledger {
+  double energy_quantum = 1.0;    ///< J
+  double momentum_quantum = 1.0;  ///< kg m/s
+  NodeLedger nodes;
+  Int128 viscous_heat = 0;
+  Int128 transfer_heat = 0;       ///< filter heat of grid to particles
+  Int128 escaped_energy = 0;
+  std::array<Int128, 3> escaped_momentum{};
+  std::int64_t escaped_particles = 0;
+  Guards guards;
+};
+
+/// Quanta from the heaviest particle and the velocities of the scene: fine enough that rounding stays
+/// below 1e-13 of the total, coarse enough that no sum overflows. Collective.
+template <int Dim>
+Ledger make_ledger(const Scene& scene, const std::vector<Material>& materials,
+                   const Particles<Dim>& particles, MPI_Comm communicator);
+
+/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an affine
+/// particle is (|v|^2 + inertia |C|^2) / 2. Zero without APIC.
+double affine_inertia(const Transfer& transfer, double cell);
+
+/// Totals of the run for one row of the history; time, step and dt are left alone. Collective.
+template <int Dim>
+HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials,
+                      const Particles<Dim>& particles, const Ledger& ledger, MPI_Comm communicator);
+
+/// Books a particle that leaves through an open side. Not collective.
+template <int Dim>
+void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia, Ledger& ledger);
+
+/// All sums of the ledger over all ranks as integers, for a checkpoint. Collective.
+std::vector<std::int64_t> save(const Ledger& ledger, MPI_Comm communicator);
+
+/// Restores what save() gave; rank 0 takes the sums, the others start from zero. Not collective.
+void restore(const std::vector<std::int64_t>& words, bool root, Ledger& ledger);
+
+}  // namespace poreshock

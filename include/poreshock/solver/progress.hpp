@@ -1,0 +1,47 @@
+#pragma once
+// The progress rows of a run and the table at its end.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+
+#include "poreshock/core/phase.hpp"
+#include "poreshock/output/timings.hpp"
+#include "poreshock/solver/time_step.hpp"
+
+namespace poreshock {
+
+/// What the next progress row is computed from.
+struct Progress {
+  double start_wall = 0.0;              ///< s, MPI_Wtime at the start of the run
+  double row_wall = 0.0;                ///< s, at the last row
+  std::int64_t particle_steps = 0;      ///< of this rank since the start
+  std::int64_t row_particle_steps = 0;  ///< at the last row
+  std::int64_t first_step = 0;
+  double row_communication = 0.0;       ///< s, at the last row
+  double row_compute = 0.0;             ///< s, at the last row
+  double row_time = 0.0;                ///< s of simulated time, at the last row
+};
+
+/// Line with the names of the columns.
+std::string progress_header();
+
+/// Energies for the row, J.
+struct EnergyStatus {
+  double kinetic = 0.0, internal = 0.0, drift = 0.0;  ///< drift relative to the first total
+};
+
+/// One row of at most 100 columns: step, time, dt, energies, drift, million particle-steps per second
+/// and core, share of communication, imbalance, time to go. Collective; the same text on every rank.
+std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
+                         const PhaseTable& phases, Progress& progress, MPI_Comm communicator);
+
+/// Timings of the whole run. Collective.
+Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progress& progress,
+                      MPI_Comm communicator);
+
+/// Table of phases: least, mean and largest seconds over the ranks, share of the whole.
+std::string timings_table(const Timings& timings);
+
+}  // namespace poreshock

@@ -1,0 +1,51 @@
+#pragma once
+// What a run writes while it goes on.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "poreshock/morphology/pixel_map.hpp"
+#include "poreshock/output/history.hpp"
+#include "poreshock/solver/simulation.hpp"
+
+namespace poreshock {
+
+/// Output of one run: folder, open history, and when what is due.
+template <int Dim>
+struct Recorder {
+  std::string folder;
+  std::unique_ptr<HistoryWriter> history;
+  std::unique_ptr<PixelGrid<Dim>> pixels;  ///< only with morphology
+  HistoryRow last_row;                     ///< latest row of the history
+  std::optional<double> first_total;       ///< J, total energy of the first row of this run
+  double last_checkpoint_wall = 0.0;       ///< s
+  std::int64_t last_checkpoint_step = -1;
+};
+
+/// Opens the history and the pixel grid, after the folder was prepared. Collective.
+template <int Dim>
+Recorder<Dim> make_recorder(const std::string& folder, bool restarted, const Simulation<Dim>& sim);
+
+/// Writes what is due at the beat the clock is on (all of it at the start and the end). Collective.
+template <int Dim>
+void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder);
+
+/// Writes a checkpoint when one is due by steps, simulated time or wall time. Collective.
+template <int Dim>
+void checkpoint_when_due(double wall_seconds, Simulation<Dim>& sim, Recorder<Dim>& recorder);
+
+/// Writes a checkpoint now and returns its path. Collective.
+template <int Dim>
+std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder);
+
+/// Writes failed.h5, the state that went bad. Collective.
+template <int Dim>
+void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder);
+
+/// One 64-bit checksum of all particle columns in id order, the same on any number of ranks.
+/// Collective.
+template <int Dim>
+std::uint64_t checksum(const Simulation<Dim>& sim);
+
+}  // namespace poreshock

@@ -1,0 +1,27 @@
+#pragma once
+// A whole run: the time loop with its records, checkpoints and progress rows.
+
+#include <mpi.h>
+
+#include <string>
+
+#include "poreshock/scene/scene.hpp"
+
+namespace poreshock {
+
+/// How a run is to be carried out; the scene says what is computed.
+struct RunOptions {
+  std::string folder;
+  std::string restart;      ///< checkpoint file; empty = from the start
+  double wall_limit = 0.0;  ///< s, 0 = none: checkpoint and stop before it
+  bool quiet = false;       ///< no progress rows
+};
+
+enum class RunEnd { finished, stopped };
+
+/// Runs the scene into an output folder that was prepared. Prints on rank 0. Throws InputError,
+/// StateError (failed.h5 is written first) or SystemError on all ranks. Collective.
+template <int Dim>
+RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator);
+
+}  // namespace poreshock

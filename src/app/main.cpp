@@ -1,0 +1,58 @@
+// The program: one command line, one place where errors become messages and exit codes.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "poreshock/app/commands.hpp"
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+
+namespace {
+
+int fail(poreshock::ExitCode code, const char* what, MPI_Comm communicator) {
+  if (poreshock::rank(communicator) == 0) std::fprintf(stderr, "poreshock: %s\n", what);
+  return static_cast<int>(code);
+}
+
+/// Every error that all ranks know of ends here; one that a single rank throws is fatal to all.
+int guarded(const poreshock::Command& command, MPI_Comm communicator) {
+  using poreshock::ExitCode;
+  try {
+    return static_cast<int>(poreshock::execute(command, communicator));
+  } catch (const poreshock::InputError& error) {
+    return fail(ExitCode::bad_input, error.what(), communicator);
+  } catch (const poreshock::StateError& error) {
+    return fail(ExitCode::bad_state, error.what(), communicator);
+  } catch (const poreshock::SystemError& error) {
+    return fail(ExitCode::system_failure, error.what(), communicator);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "poreshock: rank %d: %s\n", poreshock::rank(communicator), error.what());
+    MPI_Abort(communicator, static_cast<int>(ExitCode::system_failure));
+  }
+  return static_cast<int>(ExitCode::system_failure);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"poreshock: strong shocks in porous and granular solids"};
+  app.set_version_flag("--version", poreshock::version() + " (" + poreshock::revision() + ")");
+  app.require_subcommand(1);
+  app.prefix_command(false);
+  poreshock::Command command;
+  poreshock::declare(command, app);
+  // PETSc's own options (such as -log_view) come after a double dash.
+  int program_argc = argc;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string_view(argv[i]) == "--") program_argc = i;
+  }
+  try {
+    app.parse(program_argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const char* ranked = std::getenv("OMPI_COMM_WORLD_RANK");
+    if (ranked != nullptr && std::string_view(ranked) != "0") return error.get_exit_code() == 0 ? 0 : 2;
+    return app.exit(error) == 0 ? 0 : static_cast<int>(poreshock::ExitCode::bad_input);
+  }
+  const poreshock::Runtime runtime(argc, argv);
+  return guarded(command, runtime.communicator());
+}

@@ -1,0 +1,125 @@
+#include "poreshock/particles/exchange.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "poreshock/core/parallel.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// Removes the particles at `holes` (any order, distinct) by moving the last ones into their places.
+template <int Dim>
+void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
+  if (holes.empty()) return;
+  std::sort(holes.begin(), holes.end());
+  const std::size_t kept = particles.size() - holes.size();
+  std::vector<std::uint32_t> from;
+  for (std::size_t p = kept; p < particles.size(); ++p) {
+    if (!std::binary_search(holes.begin(), holes.end(), static_cast<std::uint32_t>(p))) {
+      from.push_back(static_cast<std::uint32_t>(p));
+    }
+  }
+  for_each_column(particles, [&](std::string_view, int, auto& column) {
+    for (std::size_t k = 0; k < from.size(); ++k) column[holes[k]] = column[from[k]];
+  });
+  resize(particles, kept);
+}
+
+/// Sends a packed buffer one way and receives the one that comes from the other side.
+std::vector<std::byte> shift(const std::vector<std::byte>& buffer, int to, int from, int tag,
+                             MPI_Comm communicator) {
+  std::int64_t outgoing = static_cast<std::int64_t>(buffer.size()), incoming = 0;
+  check_mpi(MPI_Sendrecv(&outgoing, 1, MPI_INT64_T, to, tag, &incoming, 1, MPI_INT64_T, from, tag,
+                         communicator, MPI_STATUS_IGNORE),
+            "MPI_Sendrecv of particle counts");
+  std::vector<std::byte> received(static_cast<std::size_t>(incoming));
+  check_mpi(MPI_Sendrecv(buffer.data(), static_cast<int>(outgoing), MPI_BYTE, to, tag + 1,
+                         received.data(), static_cast<int>(incoming), MPI_BYTE, from, tag + 1,
+                         communicator, MPI_STATUS_IGNORE),
+            "MPI_Sendrecv of particles");
+  return received;
+}
+
+}  // namespace
+
+template <int Dim>
+void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
+                              const std::vector<std::uint32_t>& up,
+                              const std::vector<std::uint32_t>& gone, Particles<Dim>& particles,
+                              MPI_Comm communicator) {
+  const int me = rank(communicator);
+  const int ranks = size(communicator);
+  const int below = me > 0 ? me - 1 : MPI_PROC_NULL;
+  const int above = me + 1 < ranks ? me + 1 : MPI_PROC_NULL;
+  const std::size_t bytes = bytes_per_particle(particles);
+  std::vector<std::byte> to_below, to_above;
+  pack(particles, down, to_below);
+  pack(particles, up, to_above);
+  std::vector<std::uint32_t> holes = down;
+  holes.insert(holes.end(), up.begin(), up.end());
+  holes.insert(holes.end(), gone.begin(), gone.end());
+  remove(std::move(holes), particles);
+  if (ranks == 1) return;
+  const auto from_above = shift(to_below, below, above, 10, communicator);
+  const auto from_below = shift(to_above, above, below, 20, communicator);
+  unpack(from_above.data(), from_above.size() / bytes, particles);
+  unpack(from_below.data(), from_below.size() / bytes, particles);
+}
+
+template <int Dim>
+void redistribute(const std::vector<int>& destination, Particles<Dim>& particles,
+                  MPI_Comm communicator) {
+  const int ranks = size(communicator);
+  const std::size_t bytes = bytes_per_particle(particles);
+  std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(ranks));
+  for (std::size_t p = 0; p < destination.size(); ++p) {
+    if (destination[p] >= 0) leaving[destination[p]].push_back(static_cast<std::uint32_t>(p));
+  }
+  std::vector<std::int64_t> sent, received(static_cast<std::size_t>(ranks));
+  for (const auto& indices : leaving) sent.push_back(static_cast<std::int64_t>(indices.size()));
+  check_mpi(MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator),
+            "MPI_Alltoall of particle counts");
+  // One particle is one unit of transfer, so counts stay below 2^31 per pair of ranks.
+  MPI_Datatype unit;
+  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &unit);
+  MPI_Type_commit(&unit);
+  std::vector<std::vector<std::byte>> buffers(static_cast<std::size_t>(ranks));
+  std::vector<std::vector<std::byte>> arrived(static_cast<std::size_t>(ranks));
+  std::vector<MPI_Request> requests;
+  for (int r = 0; r < ranks; ++r) {
+    arrived[r].resize(static_cast<std::size_t>(received[r]) * bytes);
+    if (received[r] == 0) continue;
+    requests.emplace_back();
+    MPI_Irecv(arrived[r].data(), static_cast<int>(received[r]), unit, r, 30, communicator,
+              &requests.back());
+  }
+  for (int r = 0; r < ranks; ++r) {
+    if (leaving[r].empty()) continue;
+    pack(particles, leaving[r], buffers[r]);
+    requests.emplace_back();
+    MPI_Isend(buffers[r].data(), static_cast<int>(sent[r]), unit, r, 30, communicator,
+              &requests.back());
+  }
+  check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
+            "MPI_Waitall for particles");
+  MPI_Type_free(&unit);
+  resize(particles, 0);
+  for (int r = 0; r < ranks; ++r) {
+    unpack(arrived[r].data(), static_cast<std::size_t>(received[r]), particles);
+  }
+}
+
+template void redistribute<2>(const std::vector<int>&, Particles<2>&, MPI_Comm);
+template void redistribute<3>(const std::vector<int>&, Particles<3>&, MPI_Comm);
+template void exchange_with_neighbours<2>(const std::vector<std::uint32_t>&,
+                                          const std::vector<std::uint32_t>&,
+                                          const std::vector<std::uint32_t>&, Particles<2>&,
+                                          MPI_Comm);
+template void exchange_with_neighbours<3>(const std::vector<std::uint32_t>&,
+                                          const std::vector<std::uint32_t>&,
+                                          const std::vector<std::uint32_t>&, Particles<3>&,
+                                          MPI_Comm);
+
+}  // namespace poreshock

@@ -1,0 +1,144 @@
+#include "poreshock/solver/ownership.hpp"
+
+#include <numeric>
+
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/particles/exchange.hpp"
+#include "poreshock/transfer/shape.hpp"
+
+namespace poreshock {
+
+namespace {
+
+constexpr std::int64_t storage_interval = 20;
+
+/// Lowest stencil node along one axis; the one place where the scene's shape decides it.
+inline int stencil_base(bool cubic, double s) {
+  return cubic ? CubicSpline::base(s) : QuadraticSpline::base(s);
+}
+
+template <int Dim>
+int row_of(const Particles<Dim>& particles, std::size_t p, bool cubic, double inverse_cell) {
+  return stencil_base(cubic, particles.position[Dim - 1][p] * inverse_cell);
+}
+
+/// Brings one coordinate back into the domain where its sides say so; false when it has escaped.
+bool confine(SideKind low, SideKind high, double length, double& x, std::int64_t& crossings) {
+  if (low == SideKind::periodic) {
+    if (x >= 0.0 && x < length) return true;
+    x += x < 0.0 ? length : -length;
+    // Rounding can land on the far end, which is the near one.
+    if (x >= length) x = 0.0;
+    return x >= 0.0;
+  }
+  if (x < 0.0) {
+    if (low == SideKind::free) return false;
+    x = 0.0;
+    ++crossings;
+  } else if (x >= length) {
+    if (high == SideKind::free) return false;
+    x = std::nextafter(length, 0.0);
+    ++crossings;
+  }
+  return true;
+}
+
+template <int Dim>
+bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles, std::int64_t& crossings) {
+  for (int a = 0; a < Dim; ++a) {
+    const bool shock_axis = a == Dim - 1;
+    const SideKind low = shock_axis ? scene.boundary.low.kind : scene.boundary.lateral[a];
+    const SideKind high = shock_axis ? scene.boundary.high.kind : scene.boundary.lateral[a];
+    if (!confine(low, high, scene.domain.size[a], particles.position[a][p], crossings)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int Dim>
+void sort_particles(Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::sort);
+  const GridShape& shape = sim.grid->shape();
+  const bool cubic = shape.stencil == 4;
+  const double inverse_cell = 1.0 / shape.cell;
+  Particles<Dim>& particles = sim.particles;
+  const std::size_t cells = static_cast<std::size_t>(sim.grid->last_row() - sim.grid->first_row()) *
+                            shape.row_size;
+  std::vector<std::uint32_t>& cell = sim.cell_scratch;
+  cell.resize(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    int index = row_of<Dim>(particles, p, cubic, inverse_cell) - sim.grid->first_row();
+    if constexpr (Dim == 3) {
+      index = index * shape.nodes[1] + stencil_base(cubic, particles.position[1][p] * inverse_cell);
+    }
+    index = index * shape.nodes[0] + stencil_base(cubic, particles.position[0][p] * inverse_cell);
+    cell[p] = static_cast<std::uint32_t>(index);
+  }
+  sort_by_cell(cell, cells, particles.grain, particles.id, sim.cells);
+  if (sim.clock.step % storage_interval == 0) {
+    reorder(sim.cells.order, particles);
+    std::iota(sim.cells.order.begin(), sim.cells.order.end(), 0U);
+  }
+}
+
+template <int Dim>
+void migrate(Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::migrate);
+  const bool cubic = sim.grid->shape().stencil == 4;
+  const double inverse_cell = 1.0 / sim.grid->shape().cell;
+  const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
+  Particles<Dim>& particles = sim.particles;
+  std::vector<std::uint32_t> down, up, gone;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (!confine<Dim>(sim.scene, p, particles, sim.ledger.guards.wall_crossing)) {
+      book_escape(particles, p, inertia, sim.ledger);
+      gone.push_back(static_cast<std::uint32_t>(p));
+      continue;
+    }
+    const int row = row_of<Dim>(particles, p, cubic, inverse_cell);
+    if (row < sim.grid->first_row()) down.push_back(static_cast<std::uint32_t>(p));
+    if (row >= sim.grid->last_row()) up.push_back(static_cast<std::uint32_t>(p));
+  }
+  exchange_with_neighbours(down, up, gone, particles, sim.communicator);
+}
+
+template <int Dim>
+void rebalance(double least_gain, Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::rebalance);
+  const GridShape shape = make_grid_shape(sim.scene);
+  const bool cubic = shape.stencil == 4;
+  const double inverse_cell = 1.0 / shape.cell;
+  std::vector<std::int64_t> count(static_cast<std::size_t>(shape.rows), 0);
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    ++count[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, cubic, inverse_cell))];
+  }
+  sum(count, sim.communicator);
+  const std::vector<double> weights(count.begin(), count.end());
+  std::vector<int> starts =
+      partition_rows(weights, size(sim.communicator), slab_limits(shape));
+  if (sim.grid) {
+    const double now = heaviest(weights, sim.grid->starts());
+    if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;
+    sim.grid.reset();
+    sim.averages.reset();
+  }
+  sim.grid = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+  if (sim.scene.transfer.averaging > 0.0) {
+    sim.averages = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+  }
+  std::vector<int> destination(sim.particles.size());
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, cubic, inverse_cell));
+  }
+  redistribute(destination, sim.particles, sim.communicator);
+}
+
+template void sort_particles<2>(Simulation<2>&);
+template void sort_particles<3>(Simulation<3>&);
+template void migrate<2>(Simulation<2>&);
+template void migrate<3>(Simulation<3>&);
+template void rebalance<2>(double, Simulation<2>&);
+template void rebalance<3>(double, Simulation<3>&);
+
+}  // namespace poreshock

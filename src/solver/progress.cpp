@@ -1,0 +1,107 @@
+#include "poreshock/solver/progress.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "poreshock/core/parallel.hpp"
+
+namespace poreshock {
+
+namespace {
+
+double seconds(const PhaseTable& phases, std::initializer_list<PhaseName> names) {
+  double sum = 0.0;
+  for (const PhaseName name : names) sum += phases.seconds[static_cast<std::size_t>(name)];
+  return sum;
+}
+
+double communication(const PhaseTable& phases) {
+  return seconds(phases, {PhaseName::exchange, PhaseName::migrate, PhaseName::time_step});
+}
+
+double compute(const PhaseTable& phases) {
+  return seconds(phases, {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::average,
+                          PhaseName::grid_update, PhaseName::grid_to_particles, PhaseName::stress});
+}
+
+std::string duration(double s) {
+  char text[32];
+  if (s < 100.0) {
+    std::snprintf(text, sizeof text, "%.0f s", s);
+  } else if (s < 6000.0) {
+    std::snprintf(text, sizeof text, "%.1f min", s / 60.0);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f h", s / 3600.0);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string progress_header() {
+  return "    step   time ns     dt ns    kinetic   internal     drift   M/s/core  comm  imbal    to go";
+}
+
+std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
+                         const PhaseTable& phases, Progress& progress, MPI_Comm communicator) {
+  const double now = MPI_Wtime();
+  const double wall = now - progress.row_wall;
+  const double busy = compute(phases) - progress.row_compute;
+  // Sum of work and of compute time, and the largest compute time.
+  std::array<double, 3> sums = {
+      static_cast<double>(progress.particle_steps - progress.row_particle_steps), busy,
+      communication(phases) - progress.row_communication};
+  double longest = busy;
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  const double ranks = size(communicator);
+  const double rate = sums[0] / (wall * ranks) * 1e-6;
+  const double share = 100.0 * sums[2] / (wall * ranks);
+  const double imbalance = sums[1] > 0.0 ? longest * ranks / sums[1] : 1.0;
+  const double advanced = clock.time - progress.row_time;
+  const double to_go = advanced > 0.0 ? (end - clock.time) / advanced * wall : 0.0;
+  char text[160];
+  std::snprintf(text, sizeof text, "%8lld %9.3f %9.5f %10.4g %10.4g %9.1e %10.2f %4.0f%% %6.2f %8s",
+                static_cast<long long>(clock.step), clock.time * 1e9, clock.allowed * 1e9,
+                energy.kinetic, energy.internal, energy.drift, rate, share, imbalance,
+                duration(to_go).c_str());
+  progress.row_wall = now;
+  progress.row_particle_steps = progress.particle_steps;
+  progress.row_communication = communication(phases);
+  progress.row_compute = compute(phases);
+  progress.row_time = clock.time;
+  return text;
+}
+
+Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progress& progress,
+                      MPI_Comm communicator) {
+  Timings timings;
+  timings.ranks = size(communicator);
+  timings.wall_seconds = MPI_Wtime() - progress.start_wall;
+  timings.steps = clock.step - progress.first_step;
+  timings.particle_steps = sum(progress.particle_steps, communicator);
+  timings.rate_per_core = timings.wall_seconds > 0.0
+                              ? static_cast<double>(timings.particle_steps) /
+                                    (timings.wall_seconds * timings.ranks)
+                              : 0.0;
+  timings.phases = gather_phases(phases, communicator);
+  return timings;
+}
+
+std::string timings_table(const Timings& timings) {
+  std::string table = "phase                     min s      avg s      max s   share\n";
+  char line[120];
+  for (const PhaseTiming& phase : timings.phases) {
+    std::snprintf(line, sizeof line, "%-20s %10.3f %10.3f %10.3f  %5.1f%%\n", phase.name.c_str(),
+                  phase.min, phase.avg, phase.max, 100.0 * phase.avg / timings.wall_seconds);
+    table += line;
+  }
+  std::snprintf(line, sizeof line,
+                "%lld steps in %.1f s on %d ranks: %.2f million particle-steps per second per core\n",
+                static_cast<long long>(timings.steps), timings.wall_seconds, timings.ranks,
+                timings.rate_per_core * 1e-6);
+  return table + line;
+}
+
+}  // namespace poreshock

@@ -1,0 +1,221 @@
+#include "poreshock/solver/records.hpp"
+
+#include <cstring>
+
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/morphology/analysis.hpp"
+#include "poreshock/output/morphology_file.hpp"
+#include "poreshock/output/snapshot.hpp"
+#include "poreshock/output/xdmf.hpp"
+#include "poreshock/particles/derived.hpp"
+
+namespace poreshock {
+
+namespace {
+
+bool due(std::int64_t beats, std::int64_t beat) { return beats > 0 && beat % beats == 0; }
+
+/// Number of the record at this time: the beat, or the one after the last beat when the run ends
+/// between two.
+template <int Dim>
+std::int64_t record_number(const Simulation<Dim>& sim) {
+  const double landed = static_cast<double>(sim.clock.beat) * sim.scene.output.beat;
+  return sim.clock.beat + (sim.clock.time > landed ? 1 : 0);
+}
+
+template <int Dim>
+std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim) {
+  const Scene& scene = sim.scene;
+  if (scene.morphology.every <= 0.0) return nullptr;
+  PixelLayout<Dim> layout;
+  layout.pixel_size = scene.morphology.pixel;
+  for (int a = 0; a < Dim; ++a) {
+    layout.pixels[a] = static_cast<int>(std::lround(scene.domain.size[a] / layout.pixel_size));
+    if (a + 1 < Dim) layout.periodic[a] = scene.domain.periodic[a];
+  }
+  return std::make_unique<PixelGrid<Dim>>(sim.communicator, layout);
+}
+
+void append_counts(const PixelCounts& c, MorphologyRecord& record) {
+  record.pixels = c.pixels;
+  record.counts = {{"F", c.F},         {"E", c.E},           {"V", c.V},
+                   {"V4", c.V4},       {"D", c.D},           {"B_int", c.B_int},
+                   {"B_void", c.B_void}, {"B_frame", c.B_frame}};
+  const Minkowski m = functionals(c);
+  record.functionals = {{"A", m.A}, {"L", m.L}, {"chi", m.chi}, {"chi4", m.chi4}};
+}
+
+// The vertex count holds the name V, so the volume functional is spelt out.
+void append_counts(const VoxelCounts& c, MorphologyRecord& record) {
+  record.pixels = c.pixels;
+  record.counts = {{"C", c.C},   {"F", c.F},         {"E", c.E},           {"V", c.V},
+                   {"E4", c.E4}, {"V8", c.V8},       {"S_int", c.S_int},   {"S_void", c.S_void},
+                   {"S_frame", c.S_frame}};
+  const Minkowski3 m = functionals(c);
+  record.functionals = {{"volume", m.V}, {"S", m.S}, {"M", m.M}, {"chi", m.chi}, {"chi6", m.chi6}};
+}
+
+template <int Dim>
+void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Phase phase(sim.phases, PhaseName::morphology);
+  const Scene& scene = sim.scene;
+  const Particles<Dim>& particles = sim.particles;
+  const std::size_t fields = scene.morphology.fields.size();
+  std::vector<std::vector<double>> columns(fields);
+  std::vector<PixelValues> values;
+  for (std::size_t f = 0; f < fields; ++f) {
+    const MorphologyField& field = scene.morphology.fields[f];
+    sim.ledger.guards.temperature +=
+        derive_field<Dim>(field.name, particles, sim.materials, scene.thermal, columns[f]);
+    double scale = 0.0;
+    for (const double threshold : field.thresholds) scale = std::max(scale, std::abs(threshold));
+    values.push_back({columns[f], scale > 0.0 ? scale : 1.0});
+  }
+  PixelSources<Dim> sources;
+  for (int a = 0; a < Dim; ++a) sources.position[a] = particles.position[a];
+  sources.mass = particles.mass;
+  sources.density = particles.density;
+  const PixelScales scales = {initial_density(sim.materials.front()), 2.0 * scene.domain.cell};
+  const PixelField<Dim> map = deposit<Dim>(sources, values, scales, *recorder.pixels);
+  std::vector<MorphologyRecord> records;
+  for (std::size_t f = 0; f < fields; ++f) {
+    const MorphologyField& field = scene.morphology.fields[f];
+    MorphologyRecord record;
+    record.field = field.name;
+    record.unit = derived_unit(field.name);
+    record.threshold = field.thresholds;
+    append_counts(count<Dim>(map, f, field.thresholds, sim.communicator), record);
+    records.push_back(std::move(record));
+  }
+  const std::int64_t number = record_number(sim);
+  write_morphology(recorder.folder + "/" + morphology_name(number),
+                   {number, sim.clock.step, sim.clock.time, sim.scene_text}, records,
+                   sim.communicator);
+}
+
+template <int Dim>
+SnapshotInput<Dim> snapshot_input(const Simulation<Dim>& sim) {
+  return {sim.scene,      sim.scene_text,  sim.materials,  sim.particles, record_number(sim),
+          sim.clock.step, sim.clock.time, grid_shift(sim)};
+}
+
+template <int Dim>
+void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Phase phase(sim.phases, PhaseName::history);
+  HistoryRow row = take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
+  row.time = sim.clock.time;
+  row.step = sim.clock.step;
+  row.dt = sim.clock.allowed;
+  recorder.history->write(row);
+  if (!recorder.first_total) recorder.first_total = row.total;
+  recorder.last_row = row;
+}
+
+template <int Dim>
+void write_snapshot_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Phase phase(sim.phases, PhaseName::snapshot);
+  const std::int64_t floored =
+      write_snapshot<Dim>(recorder.folder + "/" + snapshot_name(record_number(sim)),
+                          snapshot_input(sim), sim.communicator);
+  if (rank(sim.communicator) == 0) sim.ledger.guards.temperature += floored;
+  write_xdmf(recorder.folder, sim.communicator);
+}
+
+}  // namespace
+
+template <int Dim>
+Recorder<Dim> make_recorder(const std::string& folder, bool restarted, const Simulation<Dim>& sim) {
+  Recorder<Dim> recorder;
+  recorder.folder = folder;
+  recorder.history = std::make_unique<HistoryWriter>(
+      folder + "/history.csv", Dim, sim.communicator,
+      restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
+  recorder.pixels = make_pixels(sim);
+  recorder.last_checkpoint_step = sim.clock.step;
+  return recorder;
+}
+
+template <int Dim>
+void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Output& output = sim.scene.output;
+  const std::int64_t beat = sim.clock.beat;
+  const bool all = last || sim.clock.step == 0;
+  // Snapshots and morphology come first: what they floor is counted in the history row.
+  if (recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat))) {
+    write_morphology_record(sim, recorder);
+  }
+  if (all || due(beats_of(output.snapshot, output.beat), beat)) write_snapshot_record(sim, recorder);
+  const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
+  if (all || due(history, beat)) write_history(sim, recorder);
+  if (last) collect_morphology(recorder.folder, sim.communicator);
+}
+
+template <int Dim>
+void checkpoint_when_due(double wall_seconds, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Checkpoint& when = sim.scene.checkpoint;
+  const std::int64_t beats = beats_of(when.every_time, sim.scene.output.beat);
+  bool now = when.every_steps > 0 && sim.clock.step % when.every_steps == 0;
+  now = now || (sim.clock.on_beat && due(beats, sim.clock.beat));
+  if (when.every_wall > 0.0) {
+    // Clocks differ between ranks; rank 0's decides.
+    int late = wall_seconds - recorder.last_checkpoint_wall >= when.every_wall ? 1 : 0;
+    check_mpi(MPI_Bcast(&late, 1, MPI_INT, 0, sim.communicator), "MPI_Bcast");
+    now = now || late == 1;
+  }
+  if (!now || sim.clock.step == recorder.last_checkpoint_step) return;
+  checkpoint_now(sim, recorder);
+  recorder.last_checkpoint_wall = wall_seconds;
+}
+
+template <int Dim>
+std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Phase phase(sim.phases, PhaseName::checkpoint);
+  const std::string path = recorder.folder + "/" + checkpoint_name(sim.clock.step);
+  write_checkpoint(path, sim.scene_text, run_state(sim), sim.particles, sim.communicator);
+  prune_checkpoints(recorder.folder, sim.scene.checkpoint.keep, sim.communicator);
+  recorder.last_checkpoint_step = sim.clock.step;
+  return path;
+}
+
+template <int Dim>
+void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
+  write_snapshot<Dim>(recorder.folder + "/failed.h5", snapshot_input(sim), sim.communicator);
+}
+
+template <int Dim>
+std::uint64_t checksum(const Simulation<Dim>& sim) {
+  // Each particle is hashed with its id, and the hashes are added: order and rank cannot matter.
+  const auto mix = [](std::uint64_t h) {
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
+    return h ^ (h >> 31);
+  };
+  std::vector<std::uint64_t> hash(sim.particles.size(), 0x9e3779b97f4a7c15ULL);
+  for_each_column(sim.particles, [&](std::string_view, int, const auto& column) {
+    for (std::size_t p = 0; p < hash.size(); ++p) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &column[p], sizeof(column[p]));
+      hash[p] = mix(hash[p] ^ bits) + 0x9e3779b97f4a7c15ULL;
+    }
+  });
+  std::uint64_t total = 0;
+  for (const std::uint64_t h : hash) total += mix(h);
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_UINT64_T, MPI_SUM, sim.communicator),
+            "MPI_Allreduce of the checksum");
+  return total;
+}
+
+template Recorder<2> make_recorder<2>(const std::string&, bool, const Simulation<2>&);
+template Recorder<3> make_recorder<3>(const std::string&, bool, const Simulation<3>&);
+template void record<2>(bool, Simulation<2>&, Recorder<2>&);
+template void record<3>(bool, Simulation<3>&, Recorder<3>&);
+template void checkpoint_when_due<2>(double, Simulation<2>&, Recorder<2>&);
+template void checkpoint_when_due<3>(double, Simulation<3>&, Recorder<3>&);
+template std::string checkpoint_now<2>(Simulation<2>&, Recorder<2>&);
+template std::string checkpoint_now<3>(Simulation<3>&, Recorder<3>&);
+template void write_failed_state<2>(Simulation<2>&, const Recorder<2>&);
+template void write_failed_state<3>(Simulation<3>&, const Recorder<3>&);
+template std::uint64_t checksum<2>(const Simulation<2>&);
+template std::uint64_t checksum<3>(const Simulation<3>&);
+
+}  // namespace poreshock

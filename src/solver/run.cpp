@@ -1,0 +1,150 @@
+#include "poreshock/solver/run.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/core/stop_signal.hpp"
+#include "poreshock/output/folder.hpp"
+#include "poreshock/output/posix_file.hpp"
+#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/solver/ownership.hpp"
+#include "poreshock/solver/progress.hpp"
+#include "poreshock/solver/records.hpp"
+
+namespace poreshock {
+
+namespace {
+
+constexpr std::int64_t rebalance_interval = 200;
+constexpr double least_rebalance_gain = 0.05;
+constexpr double seconds_between_rows = 2.0;
+
+template <int Dim>
+EnergyStatus energy_status(const Recorder<Dim>& recorder) {
+  const HistoryRow& row = recorder.last_row;
+  const double first = recorder.first_total.value_or(row.total);
+  return {row.kinetic, row.internal, first != 0.0 ? row.total / first - 1.0 : 0.0};
+}
+
+/// Prints a row when the last one is old enough; rank 0's clock decides. Collective.
+template <int Dim>
+void show_progress(bool quiet, const Simulation<Dim>& sim, const Recorder<Dim>& recorder,
+                   Progress& progress) {
+  if (quiet) return;
+  int late = MPI_Wtime() - progress.row_wall >= seconds_between_rows ? 1 : 0;
+  check_mpi(MPI_Bcast(&late, 1, MPI_INT, 0, sim.communicator), "MPI_Bcast");
+  if (late == 0) return;
+  const std::string row = progress_row(sim.clock, sim.scene.time.end, energy_status(recorder),
+                                       sim.phases, progress, sim.communicator);
+  if (rank(sim.communicator) == 0) std::printf("%s\n", row.c_str()), std::fflush(stdout);
+}
+
+/// One step with its housekeeping; true when the run has been asked to stop.
+template <int Dim>
+bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
+  StepAgreement agreement;
+  double dt = 0.0;
+  {
+    const Phase phase(sim.phases, PhaseName::time_step);
+    const double wall = MPI_Wtime() - progress.start_wall;
+    const bool out_of_time = options.wall_limit > 0.0 && wall > options.wall_limit;
+    agreement = agree_on_step(stop_signal_arrived() || out_of_time, sim.clock, sim.communicator);
+    if (agreement.bad_state) {
+      throw StateError("at step " + std::to_string(sim.clock.step) + ", time " +
+                       std::to_string(sim.clock.time * 1e9) +
+                       " ns, particles have a state that is not finite or were turned inside out: "
+                       "look at failed.h5, try a smaller time.cfl or a larger viscosity.linear");
+    }
+    if (agreement.stop_asked) return true;
+    dt = next_time_step(sim.scene, sim.clock);
+  }
+  advance(sim, dt);
+  progress.particle_steps += static_cast<std::int64_t>(sim.particles.size());
+  tick(sim.scene, dt, sim.clock);
+  migrate(sim);
+  if (sim.clock.step % rebalance_interval == 0) rebalance(least_rebalance_gain, sim);
+  return false;
+}
+
+template <int Dim>
+void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
+            Progress& progress) {
+  const std::uint64_t bits = checksum(sim);
+  const Timings timings = final_timings(sim.clock, sim.phases, progress, sim.communicator);
+  write_timings(options.folder + "/timings.json", timings, sim.communicator);
+  const Ledger& l = sim.ledger;
+  std::vector<std::int64_t> guards = {l.guards.compression, l.guards.sound_speed,
+                                      l.guards.wall_crossing, l.guards.temperature,
+                                      l.escaped_particles};
+  sum(guards, sim.communicator);
+  if (rank(sim.communicator) != 0) return;
+  if (!options.quiet) std::printf("\n%s", timings_table(timings).c_str());
+  std::printf(
+      "energy drift %.1e, guards: compression %lld, sound speed %lld, wall %lld, temperature %lld; "
+      "escaped particles %lld; checksum %016llx\n",
+      energy_status(recorder).drift, static_cast<long long>(guards[0]),
+      static_cast<long long>(guards[1]), static_cast<long long>(guards[2]),
+      static_cast<long long>(guards[3]), static_cast<long long>(guards[4]),
+      static_cast<unsigned long long>(bits));
+  std::printf("%s at step %lld, time %.6g ns, in %s\n",
+              end == RunEnd::finished ? "finished" : "stopped",
+              static_cast<long long>(sim.clock.step), sim.clock.time * 1e9, options.folder.c_str());
+  std::fflush(stdout);
+}
+
+template <int Dim>
+RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
+                 Progress& progress) {
+  const TimeControl& limits = sim.scene.time;
+  if (options.restart.empty()) record(false, sim, recorder);
+  while (sim.clock.time < limits.end &&
+         (limits.max_steps == 0 || sim.clock.step < limits.max_steps)) {
+    if (step(options, sim, progress)) {
+      const std::string path = checkpoint_now(sim, recorder);
+      if (rank(sim.communicator) == 0) {
+        std::printf("asked to stop: checkpoint %s; continue with --restart latest\n", path.c_str());
+      }
+      return RunEnd::stopped;
+    }
+    const bool last = sim.clock.time >= limits.end ||
+                      (limits.max_steps > 0 && sim.clock.step >= limits.max_steps);
+    if (sim.clock.on_beat || last) record(last, sim, recorder);
+    checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);
+    show_progress(options.quiet, sim, recorder, progress);
+  }
+  return RunEnd::finished;
+}
+
+}  // namespace
+
+template <int Dim>
+RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
+  Progress progress;
+  progress.start_wall = MPI_Wtime();
+  const bool restarted = !options.restart.empty();
+  Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
+                                  : start<Dim>(scene, communicator);
+  on_rank_zero(communicator,
+               [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
+  if (restarted) remove_records_from(options.folder, sim.clock.beat + 1, communicator);
+  Recorder<Dim> recorder = make_recorder(options.folder, restarted, sim);
+  progress.first_step = sim.clock.step;
+  progress.row_wall = MPI_Wtime();
+  progress.row_time = sim.clock.time;
+  if (rank(communicator) == 0 && !options.quiet) std::printf("%s\n", progress_header().c_str());
+  try {
+    const RunEnd end = time_loop(options, sim, recorder, progress);
+    finish(end, options, sim, recorder, progress);
+    return end;
+  } catch (const StateError&) {
+    write_failed_state(sim, recorder);
+    throw;
+  }
+}
+
+template RunEnd run<2>(const Scene&, const RunOptions&, MPI_Comm);
+template RunEnd run<3>(const Scene&, const RunOptions&, MPI_Comm);
+
+}  // namespace poreshock

@@ -1,0 +1,180 @@
+#include "poreshock/solver/simulation.hpp"
+
+#include <bit>
+
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/physics/boundary.hpp"
+#include "poreshock/physics/momentum.hpp"
+#include "poreshock/scene/read_scene.hpp"
+#include "poreshock/solver/ownership.hpp"
+#include "poreshock/transfer/average.hpp"
+#include "poreshock/transfer/grid_to_particles.hpp"
+#include "poreshock/transfer/particles_to_grid.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// Velocity of the background grid: it rides with walls, so that they stay on a line of nodes.
+template <int Dim>
+Vector<Dim> grid_velocity(const Scene& scene) {
+  Vector<Dim> velocity = Vector<Dim>::Zero();
+  for (int a = 0; a + 1 < Dim; ++a) {
+    const SideKind kind = scene.boundary.lateral[a];
+    if (kind == SideKind::wall || kind == SideKind::symmetry) velocity[a] = scene.loading.frame[a];
+  }
+  const Side& low = scene.boundary.low;
+  const Side& high = scene.boundary.high;
+  const Side& fixed = low.kind == SideKind::free ? high : low;
+  if (fixed.kind != SideKind::free) {
+    velocity[Dim - 1] = fixed.velocity + scene.loading.frame[Dim - 1];
+  }
+  return velocity;
+}
+
+template <int Dim>
+Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
+  Simulation<Dim> sim;
+  sim.scene = scene;
+  sim.scene_text = write_scene(scene);
+  sim.communicator = communicator;
+  for (const MaterialParameters& parameters : scene.materials) {
+    sim.materials.push_back(make_material(parameters));
+    if (parameters.kinematic_share > 0.0) sim.particles.options.back_stress = true;
+  }
+  sim.particles.options.affine = scene.transfer.velocity == VelocityTransfer::apic;
+  sim.stress_settings.thermal = scene.thermal;
+  sim.stress_settings.viscosity = scene.viscosity;
+  sim.stress_settings.averaging = scene.transfer.averaging > 0.0;
+  sim.stress_settings.cell = scene.domain.cell;
+  sim.stress_settings.cfl = scene.time.cfl;
+  sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
+  for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
+  sim.phases = make_phase_table();
+  return sim;
+}
+
+template <int Dim>
+void take_report(const StressReport& report, Simulation<Dim>& sim) {
+  sim.clock.limit = report.dt_limit;
+  sim.clock.bad = report.bad;
+  sim.ledger.guards.compression += report.compression_guard;
+  sim.ledger.guards.sound_speed += report.sound_speed_guard;
+  sim.ledger.viscous_heat += report.viscous_heat;
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
+  Simulation<Dim> sim = prepare<Dim>(scene, communicator);
+  const std::int64_t layers = lattice_layers(scene);
+  const std::int64_t me = rank(communicator), ranks = size(communicator);
+  SampleReport report;
+  fill<Dim>(scene, {layers * me / ranks, layers * (me + 1) / ranks}, sim.particles, report);
+  sim.sample = total(report, communicator);
+  rebalance(0.0, sim);
+  sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
+  sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
+  StressReport stress;
+  initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, stress);
+  take_report(stress, sim);
+  return sim;
+}
+
+template <int Dim>
+Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm communicator) {
+  Simulation<Dim> sim = prepare<Dim>(scene, communicator);
+  std::string stored_scene;
+  RunState state;
+  read_checkpoint<Dim>(path, communicator, stored_scene, state, sim.particles);
+  sim.clock.step = state.step;
+  sim.clock.time = state.time;
+  sim.clock.allowed = state.last_dt;
+  sim.clock.beat = state.beat;
+  sim.clock.limit = std::bit_cast<double>(state.integers.at(0));
+  sim.clock.first_limit = std::bit_cast<double>(state.integers.at(1));
+  const double energy_quantum = std::bit_cast<double>(state.integers.at(2));
+  const double momentum_quantum = std::bit_cast<double>(state.integers.at(3));
+  sim.ledger.energy_quantum = energy_quantum;
+  sim.ledger.momentum_quantum = momentum_quantum;
+  sim.ledger.nodes.inverse_energy_quantum = 1.0 / energy_quantum;
+  sim.ledger.nodes.inverse_momentum_quantum = 1.0 / momentum_quantum;
+  restore({state.integers.begin() + 4, state.integers.end()}, rank(communicator) == 0, sim.ledger);
+  sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
+  rebalance(0.0, sim);
+  return sim;
+}
+
+template <int Dim>
+RunState run_state(const Simulation<Dim>& sim) {
+  RunState state;
+  state.step = sim.clock.step;
+  state.time = sim.clock.time;
+  state.last_dt = sim.clock.allowed;
+  state.beat = sim.clock.beat;
+  state.record = sim.clock.beat + 1;
+  for (const double x : {sim.clock.limit, sim.clock.first_limit, sim.ledger.energy_quantum,
+                         sim.ledger.momentum_quantum}) {
+    state.integers.push_back(std::bit_cast<std::int64_t>(x));
+  }
+  const std::vector<std::int64_t> ledger = save(sim.ledger, sim.communicator);
+  state.integers.insert(state.integers.end(), ledger.begin(), ledger.end());
+  return state;
+}
+
+template <int Dim>
+void advance(Simulation<Dim>& sim, double dt) {
+  const Transfer& transfer = sim.scene.transfer;
+  const bool averaging = transfer.averaging > 0.0;
+  const bool affine = transfer.velocity == VelocityTransfer::apic;
+  sort_particles(sim);
+  sim.step_data.resize(sim.particles.size(), averaging);
+  if (averaging) {
+    const Phase phase(sim.phases, PhaseName::average);
+    average_pressure(sim.particles, sim.cells, transfer, *sim.averages, sim.step_data);
+  }
+  {
+    const Phase phase(sim.phases, PhaseName::particles_to_grid);
+    particles_to_grid(sim.particles, sim.cells, transfer, sim.step_data, *sim.grid);
+  }
+  {
+    const Phase phase(sim.phases, PhaseName::exchange);
+    sim.grid->exchange();
+  }
+  {
+    const Phase phase(sim.phases, PhaseName::grid_update);
+    NodeLedger& ledger = sim.ledger.nodes;
+    integrate_momentum<Dim>(sim.body_force, affine, dt, *sim.grid, ledger);
+    apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, *sim.grid, ledger);
+    if (sim.body_force.squaredNorm() > 0.0) {
+      add_body_work<Dim>(sim.body_force, dt, *sim.grid, ledger);
+    }
+    prepare_gather<Dim>(transfer, damped_share(transfer, dt), *sim.grid);
+  }
+  if (averaging) {
+    const Phase phase(sim.phases, PhaseName::average);
+    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages, sim.step_data);
+  }
+  {
+    const Phase phase(sim.phases, PhaseName::grid_to_particles);
+    grid_to_particles(*sim.grid, sim.cells, transfer, sim.stress_settings.grid_velocity, dt,
+                      sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
+                      sim.ledger.transfer_heat);
+  }
+  const Phase phase(sim.phases, PhaseName::stress);
+  StressReport report;
+  update_stress(sim.materials, sim.stress_settings, sim.step_data, dt, sim.particles, report);
+  take_report(report, sim);
+}
+
+template Simulation<2> start<2>(const Scene&, MPI_Comm);
+template Simulation<3> start<3>(const Scene&, MPI_Comm);
+template Simulation<2> resume<2>(const Scene&, const std::string&, MPI_Comm);
+template Simulation<3> resume<3>(const Scene&, const std::string&, MPI_Comm);
+template RunState run_state<2>(const Simulation<2>&);
+template RunState run_state<3>(const Simulation<3>&);
+template void advance<2>(Simulation<2>&, double);
+template void advance<3>(Simulation<3>&, double);
+
+}  // namespace poreshock

@@ -1,0 +1,108 @@
+// history.csv: exact header, exact numbers, and a restart that leaves no row twice.
+#include "poreshock/output/history.hpp"
+
+#include <sstream>
+
+#include "output/support.hpp"
+#include "poreshock/output/info.hpp"
+
+namespace poreshock {
+namespace {
+
+using test::contains;
+using test::TemporaryFolder;
+using test::thrown;
+
+const MPI_Comm world = MPI_COMM_WORLD;
+
+const std::string plane_header =
+    "time [s],step [-],dt [s],particles [-],kinetic [J/m],internal [J/m],escaped [J/m],"
+    "wall_work [J/m],body_work [J/m],total [J/m],elastic [J/m],plastic_work [J/m],"
+    "viscous_heat [J/m],filter_heat [J/m],wall_heat [J/m],contact_heat [J/m],friction_heat [J/m],"
+    "conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],guards [-]";
+
+HistoryRow sample_row(std::int64_t step) {
+  HistoryRow row;
+  row.time = static_cast<double>(step) / 3e9;
+  row.step = step;
+  row.dt = 1e-10;
+  row.particles = 1000;
+  row.kinetic = 1.0 / 3.0;
+  row.conduction = -2.5;
+  row.momentum = {1.0, -2.0, 4.0};
+  row.guards = 9;
+  return row;
+}
+
+std::vector<std::string> lines(const std::string& path) {
+  std::istringstream in(test::file_bytes(path));
+  std::vector<std::string> result;
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+TEST(History, HeaderAndNumbers) {
+  EXPECT_EQ(history_header(2), plane_header);
+  const std::string solid = history_header(3);
+  EXPECT_TRUE(contains(solid, "kinetic [J],")) << solid;
+  EXPECT_TRUE(contains(solid, "momentum_y [kg m/s],momentum_z [kg m/s],guards [-]")) << solid;
+  EXPECT_EQ(history_line(sample_row(3), 2),
+            "1.0000000000000001e-09,3,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,"
+            "1,-2,9");
+  EXPECT_EQ(history_line(sample_row(0), 3),
+            "0,0,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,1,-2,4,9");
+}
+
+TEST(History, RowsAreThereAtOnce) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "history.csv";
+  HistoryWriter history(path, 2, world);
+  history.write(sample_row(1));
+  history.write(sample_row(2));
+  // Still open: a killed run would leave these rows.
+  EXPECT_EQ(lines(path), (std::vector<std::string>{plane_header, history_line(sample_row(1), 2),
+                                                   history_line(sample_row(2), 2)}));
+  EXPECT_EQ(test::file_bytes(path).back(), '\n');
+}
+
+TEST(History, RestartDropsLaterAndBrokenRows) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "history.csv";
+  {
+    HistoryWriter history(path, 2, world);
+    for (const std::int64_t step : {0, 10, 20, 30}) history.write(sample_row(step));
+  }
+  test::rank_zero_alone([&] { std::ofstream(path, std::ios::app) << "1e-9,15,1e-1"; });
+  {
+    HistoryWriter history(path, 2, world, 20);
+    history.write(sample_row(25));
+  }
+  const auto found = lines(path);
+  ASSERT_EQ(found.size(), 5u);
+  EXPECT_EQ(found[0], plane_header);
+  EXPECT_EQ(found[3], history_line(sample_row(20), 2));
+  EXPECT_EQ(found[4], history_line(sample_row(25), 2));
+  if (rank(world) == 0) {
+    const std::string text = describe(path);
+    EXPECT_TRUE(contains(text, "rows      4") && contains(text, "step      25")) << text;
+  }
+}
+
+TEST(History, RestartOfAnotherKindOfFileIsRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "history.csv";
+  { HistoryWriter history(path, 3, world); }
+  MPI_Barrier(world);
+  const std::string text = thrown<InputError>([&] { HistoryWriter(path, 2, world, 5); });
+  EXPECT_TRUE(contains(text, path) && contains(text, "columns")) << text;
+  HistoryWriter fresh(folder / "fresh.csv", 2, world, 5);
+  EXPECT_EQ(lines(folder / "fresh.csv"), (std::vector<std::string>{plane_header}));
+}
+
+TEST(History, FullDiskIsAnErrorOnAllRanks) {
+  const std::string text = thrown<SystemError>([] { HistoryWriter("/dev/full", 2, world); });
+  EXPECT_TRUE(contains(text, "/dev/full") && contains(text, "no space left")) << text;
+}
+
+}  // namespace
+}  // namespace poreshock

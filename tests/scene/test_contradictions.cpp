@@ -1,0 +1,216 @@
+// Keys that contradict each other: the texts that users read then.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "scene_text.hpp"
+
+namespace poreshock {
+namespace {
+
+TEST(Contradictions, OverrideThatBreaksAnotherKey) {
+  EXPECT_EQ(
+      override_problems("domain.cell=3e-5"),
+      "s.toml:2:8: domain.size: found 0.0001 m along x, allowed whole multiples of domain.cell "
+      "= 3e-05 m\n"
+      "s.toml:2:8: domain.size: found 0.0002 m along y, allowed whole multiples of domain.cell "
+      "= 3e-05 m");
+}
+
+TEST(Contradictions, TooFewCells) {
+  EXPECT_EQ(
+      problems(scene_with("size = [3e-5, 7e-5]\ncell = 1e-5\n")),
+      "s.toml:2:8: domain.size: found 3e-05 m along x, allowed at least 4 cells along a lateral "
+      "axis (4e-05 m)\n"
+      "s.toml:2:8: domain.size: found 7e-05 m along y, allowed at least 8 cells along the shock "
+      "axis (8e-05 m)");
+}
+
+TEST(Contradictions, Walls) {
+  const std::string moving = "[boundary]\nlow = { kind = \"wall\", velocity = 100 }\n";
+  EXPECT_EQ(problems(small_scene(moving + "high = \"wall\"\n")),
+            "s.toml:20:8: boundary.high: found a wall at 0 m/s opposite to a moving wall, allowed "
+            "\"free\" or a wall at 100 m/s too");
+  EXPECT_EQ(problems(small_scene(moving + "high = \"symmetry\"\n")),
+            "s.toml:20:8: boundary.high: found a symmetry plane opposite to a moving wall, allowed "
+            "\"free\" or a wall at 100 m/s too");
+  EXPECT_EQ(problems(small_scene(moving + "high = { kind = \"wall\", velocity = 100 }\n")), "");
+  EXPECT_EQ(problems(small_scene(moving + "high = \"free\"\n")), "");
+  EXPECT_EQ(
+      problems(small_scene("[boundary]\nlow = { kind = \"symmetry\", velocity = 3.5 }\n")),
+      "s.toml:19:39: boundary.low.velocity: found 3.5 m/s, allowed only with kind = \"wall\"");
+  EXPECT_EQ(problems(small_scene("[boundary]\nlow = \"wal\"\n")),
+            "s.toml:19:7: boundary.low.kind: found \"wal\", allowed \"wall\", \"free\" or "
+            "\"symmetry\", did you mean \"wall\"?");
+}
+
+TEST(Contradictions, LateralSides) {
+  const std::string periodic = good_domain + "periodic = true\n";
+  EXPECT_EQ(problems(scene_with(periodic, "[boundary]\nlateral = \"wall\"\n")),
+            "s.toml:20:11: boundary.lateral: found \"wall\", allowed only with an axis for which "
+            "domain.periodic is false");
+  EXPECT_EQ(problems(small_scene("[boundary]\nlateral = \"periodic\"\n")),
+            "s.toml:19:11: boundary.lateral: found \"periodic\", allowed \"free\", \"wall\" or "
+            "\"symmetry\"");
+  EXPECT_EQ(problems(scene_with(good_domain + "periodic = [true, false]\n")),
+            "s.toml:4:12: domain.periodic: found an array of 2, allowed true or false, or an array "
+            "with one of them per lateral axis, here 1");
+}
+
+TEST(Contradictions, Sample) {
+  EXPECT_EQ(
+      override_problems("sample.kind=random_voids"),
+      "s.toml:14:1: sample.void_radius: missing, give a number > 0 (m) with kind = "
+      "\"random_voids\"\n"
+      "s.toml:14:1: sample.porosity: missing, give a void fraction > 0 and <= 0.65 with kind = "
+      "\"random_voids\"");
+  EXPECT_EQ(
+      problems(small_scene(),
+               {"sample.kind=random_voids", "sample.void_radius=1e-5", "sample.porosity=3",
+                "sample.porosity_definition=distension_minus_1"}),
+      "--set sample.porosity=3: sample.porosity: found a void fraction of 0.75, allowed a void "
+      "fraction > 0 and <= 0.65 with kind = \"random_voids\"");
+  EXPECT_EQ(problems(small_scene(),
+                     {"sample.kind=random_voids", "sample.void_radius=1e-5", "sample.porosity=0.2",
+                      "sample.overlap=true", "sample.ligament=1e-6"}),
+            "--set sample.ligament=1e-6: sample.ligament: found 1e-06 m, allowed 0 with overlap = "
+            "true");
+  EXPECT_EQ(
+      override_problems("sample.height=3e-4"),
+      "--set sample.height=3e-4: sample.height: found 0.0003 m, allowed up to the domain height "
+      "of 0.0002 m");
+  EXPECT_EQ(override_problems("sample.material=aluminum"),
+            "--set sample.material=aluminum: sample.material: found \"aluminum\", allowed "
+            "\"aluminium\", did you mean \"aluminium\"?");
+  EXPECT_EQ(
+      override_problems("sample.particles_per_cell=9"),
+      "--set sample.particles_per_cell=9: sample.particles_per_cell: found 9, allowed a whole "
+      "number from 1 to 8");
+  EXPECT_EQ(override_problems("sample.kind=none"),
+            "s.toml:14:1: sample: found no material in the domain, allowed a [sample] with kind = "
+            "\"solid\" or \"random_voids\", or at least one [[body]]");
+}
+
+TEST(Contradictions, MaterialNamesAreUnique) {
+  std::string second = small_scene();
+  second = second.substr(second.find("[[material]]"));
+  second = second.substr(0, second.find("[sample]"));
+  EXPECT_EQ(
+      problems(small_scene(second)),
+      "s.toml:19:8: material.1.name: found \"aluminium\" again, allowed a name of its own for "
+      "each material");
+}
+
+TEST(Contradictions, Bodies) {
+  EXPECT_EQ(problems(small_scene("[[body]]\nshape = \"ring\"\ncenter = [0, 0]\ninner = 2e-5\n"
+                                 "outer = 1e-5\n")),
+            "s.toml:21:9: body.0.inner: found 2e-05 m, allowed less than outer = 1e-05 m");
+  EXPECT_EQ(problems(small_scene("[[void]]\nshape = \"box\"\nlow = [0, 0]\nhigh = [1e-5, 0]\n")),
+            "s.toml:21:8: void.0.high: found 0 m along y, allowed more than low, 0 m");
+  EXPECT_EQ(problems(small_scene("[[void]]\nshape = \"ball\"\nradius = 1\n")),
+            "s.toml:19:9: void.0.shape: found \"ball\", allowed \"disc\", \"box\", \"ring\" or "
+            "\"polygon\"");
+  EXPECT_EQ(problems(small_scene("[[void]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 1]]\n")),
+            "s.toml:20:10: void.0.points: found an array of 2, allowed at least 3 points, each an "
+            "array of 2 numbers (m)");
+  EXPECT_EQ(
+      problems(small_scene("[[void]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 1], [2, 2]]\n")),
+      "s.toml:20:10: void.0.points: found no area, allowed corners in order around an area");
+  EXPECT_EQ(problems(small_scene("[[void]]\nshape = \"disc\"\ncenter = [0, 0]\nradius = 1e-5\n"
+                                 "velocity = [0, 0]\n")),
+            "s.toml:22:1: void.0.velocity: unknown key, allowed shape, center, radius");
+}
+
+TEST(Contradictions, DampingBelongsToFlip) {
+  EXPECT_EQ(override_problems("transfer.damping=1e5"),
+            "--set transfer.damping=1e5: transfer.damping: found 100000 1/s, allowed 0 unless "
+            "transfer.velocity = \"flip\"");
+  EXPECT_EQ(problems(small_scene(), {"transfer.damping=1e5", "transfer.velocity=flip"}), "");
+}
+
+TEST(Contradictions, Beat) {
+  for (const std::string key : {"snapshot", "history"}) {
+    const std::string change = "output." + key + "=7.5e-9";
+    EXPECT_EQ(override_problems(change),
+              "--set " + change + ": output." + key + ": found 7.5e-09 s, allowed " +
+                  (key == "snapshot" ? "0 or " : "") + "whole multiples of output.beat = 5e-09 s");
+  }
+  EXPECT_EQ(override_problems("checkpoint.every_time=1e-9"),
+            "--set checkpoint.every_time=1e-9: checkpoint.every_time: found 1e-09 s, allowed 0 or "
+            "whole multiples of output.beat = 5e-09 s");
+  EXPECT_EQ(problems(small_scene(), {"output.beat=1e-9", "output.snapshot=7e-9"}), "");
+}
+
+TEST(Contradictions, OutputFields) {
+  EXPECT_EQ(override_problems("output.fields=[\"id\", \"id\"]"),
+            "--set output.fields=[\"id\", \"id\"]: output.fields: found \"id\", allowed each name "
+            "once");
+  EXPECT_EQ(
+      override_problems("output.fields=[]"),
+      "--set output.fields=[]: output.fields: found an empty list, allowed at least one name, "
+      "or no such key");
+}
+
+TEST(Contradictions, Morphology) {
+  const std::string on = "[morphology]\nevery = 5e-9\n";
+  EXPECT_EQ(problems(small_scene(on)),
+            "s.toml:18:1: morphology.fields: missing, give at least one field, or every = 0");
+  EXPECT_EQ(
+      problems(small_scene(on + "fields = [\"temprature\"]\nthresholds = [310]\n")),
+      "s.toml:20:11: morphology.fields: found \"temprature\", allowed \"temperature\", "
+      "\"pressure\", \"density\", \"speed\", \"von_mises\" or \"plastic_strain\", did you mean "
+      "\"temperature\"?");
+  EXPECT_EQ(
+      problems(small_scene(on + "fields = [\"speed\"]\n")),
+      "s.toml:18:1: morphology.thresholds: missing, give numbers in ascending order or {from = "
+      ", to = , step = }, by field name if several");
+  EXPECT_EQ(
+      problems(small_scene(on + "fields = [\"speed\"]\nthresholds = [1, 2, 2]\n")),
+      "s.toml:21:21: morphology.thresholds: found 2, allowed numbers in ascending order, here > "
+      "2");
+  EXPECT_EQ(problems(small_scene(on + "fields = [\"speed\"]\nthresholds = [1, nan]\n")),
+            "s.toml:21:18: morphology.thresholds: found nan, allowed a number");
+  EXPECT_EQ(
+      problems(small_scene(on + "fields = [\"speed\", \"density\"]\nthresholds = [1]\n")),
+      "s.toml:21:14: morphology.thresholds: found thresholds of one field, allowed a table by "
+      "field name, because morphology.fields names 2");
+  EXPECT_EQ(
+      problems(small_scene(on + "fields = [\"speed\", \"density\"]\n" +
+                           "thresholds = { speed = [1], densty = [2] }\n")),
+      "s.toml:21:14: morphology.thresholds.density: missing, give its thresholds, or take it "
+      "out of morphology.fields\n"
+      "s.toml:21:29: morphology.thresholds.densty: unknown key, allowed speed, density, did you "
+      "mean \"density\"?");
+}
+
+TEST(Contradictions, ThresholdRanges) {
+  const std::string speed = "[morphology]\nfields = [\"speed\"]\nthresholds = ";
+  EXPECT_EQ(
+      problems(small_scene(speed + "{ from = 2, to = 1, step = 1 }\n")),
+      "s.toml:20:14: morphology.thresholds: found from 2 to 1 by 1, allowed to >= from and at "
+      "most 65534 thresholds");
+  EXPECT_EQ(
+      problems(small_scene(speed + "{ from = 0, to = 1, step = 1e-6 }\n")),
+      "s.toml:20:14: morphology.thresholds: found from 0 to 1 by 1e-06, allowed to >= from and "
+      "at most 65534 thresholds");
+  EXPECT_EQ(problems(small_scene(speed + "{ from = 2, to = 3, step = 0 }\n")),
+            "s.toml:20:41: morphology.thresholds.step: found 0, allowed a number > 0");
+}
+
+TEST(Contradictions, Pixel) {
+  EXPECT_EQ(override_problems("morphology.pixel=3e-5"),
+            "--set morphology.pixel=3e-5: morphology.pixel: found 3e-05 m, allowed domain.cell = "
+            "1e-05 m times 1/8, 1/4, 1/2, 1, 2, 4 or 8");
+  EXPECT_EQ(
+      override_problems("morphology.pixel=1.6e-4"),
+      "--set morphology.pixel=1.6e-4: morphology.pixel: found 0.00016 m, allowed domain.cell = "
+      "1e-05 m times 1/8, 1/4, 1/2, 1, 2, 4 or 8");
+  EXPECT_EQ(
+      override_problems("morphology.pixel=4e-5"),
+      "--set morphology.pixel=4e-5: morphology.pixel: found 4e-05 m, allowed whole parts of the "
+      "domain, 0.0001 m along x");
+  EXPECT_EQ(override_problems("morphology.pixel=1.25e-6"), "");
+}
+
+}  // namespace
+}  // namespace poreshock
