@@ -18,7 +18,7 @@ constexpr const char* integers_path = "/state/integers";
 
 std::string column_path(std::string_view name, int component) {
   std::string path = "/particles/" + std::string(name);
-  if (component >= 0) path += "_" + std::to_string(component);
+  if (component >= 0) path.append("_").append(std::to_string(component));
   return path;
 }
 

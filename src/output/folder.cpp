@@ -31,7 +31,7 @@ constexpr std::array<SeriesName, 3> own_series = {
 template <class Visit>
 void for_each_own_file(const std::string& folder, const std::string& ending, Visit&& visit) {
   for (const std::string_view name : own_names) {
-    visit(folder + "/" + std::string(name) + ending);
+    visit(std::string(folder).append("/").append(name).append(ending));
   }
   for (const SeriesName& series : own_series) {
     for (const NumberedFile& file :

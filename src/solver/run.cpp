@@ -41,31 +41,37 @@ void show_progress(bool quiet, const Simulation<Dim>& sim, const Recorder<Dim>& 
   if (rank(sim.communicator) == 0) std::printf("%s\n", row.c_str()), std::fflush(stdout);
 }
 
+/// Step limit, health and stop requests of all ranks; true when the run has been asked to stop.
+/// Throws StateError. Collective.
+template <int Dim>
+bool agree(const RunOptions& options, const Progress& progress, Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::time_step);
+  const double wall = MPI_Wtime() - progress.start_wall;
+  const bool out_of_time = options.wall_limit > 0.0 && wall > options.wall_limit;
+  const StepAgreement agreement =
+      agree_on_step(stop_signal_arrived() || out_of_time, sim.clock, sim.communicator);
+  if (agreement.bad_state) {
+    throw StateError("at step " + std::to_string(sim.clock.step) + ", time " +
+                     std::to_string(sim.clock.time * 1e9) +
+                     " ns, particles have a state that is not finite or were turned inside out: "
+                     "look at failed.h5, try a smaller time.cfl or a larger viscosity.linear");
+  }
+  return agreement.stop_asked;
+}
+
 /// One step with its housekeeping; true when the run has been asked to stop.
 template <int Dim>
 bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
-  StepAgreement agreement;
-  double dt = 0.0;
-  {
-    const Phase phase(sim.phases, PhaseName::time_step);
-    const double wall = MPI_Wtime() - progress.start_wall;
-    const bool out_of_time = options.wall_limit > 0.0 && wall > options.wall_limit;
-    agreement = agree_on_step(stop_signal_arrived() || out_of_time, sim.clock, sim.communicator);
-    if (agreement.bad_state) {
-      throw StateError("at step " + std::to_string(sim.clock.step) + ", time " +
-                       std::to_string(sim.clock.time * 1e9) +
-                       " ns, particles have a state that is not finite or were turned inside out: "
-                       "look at failed.h5, try a smaller time.cfl or a larger viscosity.linear");
-    }
-    if (agreement.stop_asked) return true;
-    dt = next_time_step(sim.scene, sim.clock);
-  }
+  const double dt = next_time_step(sim.scene, sim.clock);
   advance(sim, dt);
   progress.particle_steps += static_cast<std::int64_t>(sim.particles.size());
   tick(sim.scene, dt, sim.clock);
+  // First of all: a checkpoint keeps the limit of all ranks, and a position that is not finite has
+  // no row to go to.
+  const bool stop_asked = agree(options, progress, sim);
   migrate(sim);
   if (sim.clock.step % rebalance_interval == 0) rebalance(least_rebalance_gain, sim);
-  return false;
+  return stop_asked;
 }
 
 template <int Dim>
@@ -99,15 +105,17 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
                  Progress& progress) {
   const TimeControl& limits = sim.scene.time;
   if (options.restart.empty()) record(false, sim, recorder);
+  bool stop_asked = agree(options, progress, sim);
   while (sim.clock.time < limits.end &&
          (limits.max_steps == 0 || sim.clock.step < limits.max_steps)) {
-    if (step(options, sim, progress)) {
+    if (stop_asked) {
       const std::string path = checkpoint_now(sim, recorder);
       if (rank(sim.communicator) == 0) {
         std::printf("asked to stop: checkpoint %s; continue with --restart latest\n", path.c_str());
       }
       return RunEnd::stopped;
     }
+    stop_asked = step(options, sim, progress);
     const bool last = sim.clock.time >= limits.end ||
                       (limits.max_steps > 0 && sim.clock.step >= limits.max_steps);
     if (sim.clock.on_beat || last) record(last, sim, recorder);

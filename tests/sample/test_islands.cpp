@@ -135,7 +135,7 @@ TEST(Islands, AgreeWithAFloodFillAt65PerCent) {
 
 TEST(Islands, AgreeWithAFloodFillIn3D) {
   for (const bool periodic : {true, false}) {
-    Scene scene = testing::space_scene(0.4e-3, 0.85);
+    Scene scene = testing::space_scene(0.4e-3, 0.6);
     scene.domain.periodic = {periodic, periodic};
     scene.sample.overlap = true;
     EXPECT_GT(expect_flood_fill<3>(scene).islands, 5);

@@ -1,0 +1,153 @@
+// Energy, momentum and symmetries of whole runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "poreshock/particles/derived.hpp"
+#include "poreshock/solver/records.hpp"
+#include "support/runs.hpp"
+
+namespace poreshock::test {
+namespace {
+
+template <int Dim>
+HistoryRow stock(const Simulation<Dim>& sim) {
+  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
+}
+
+template <int Dim>
+double drift_after(const Scene& scene, std::int64_t steps) {
+  Simulation<Dim> sim = start<Dim>(scene, MPI_COMM_WORLD);
+  const double before = stock(sim).total;
+  advance_to(steps, 0, sim);
+  return stock(sim).total / before - 1.0;
+}
+
+class EnergyCloses : public ::testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(EnergyCloses, OnAPorousSample) {
+  EXPECT_LT(std::abs(drift_after<2>(scene_of(porous_text(), GetParam()), 600)), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, EnergyCloses,
+    ::testing::Values(
+        std::vector<std::string>{}, std::vector<std::string>{"transfer.shape=quadratic"},
+        std::vector<std::string>{"transfer.averaging=1.0"},
+        std::vector<std::string>{"transfer.shape=quadratic", "transfer.averaging=0.5"},
+        std::vector<std::string>{"transfer.velocity=flip", "transfer.averaging=1.0",
+                                 "transfer.damping=1e8"},
+        std::vector<std::string>{"thermal=paper"},
+        std::vector<std::string>{"material.0.kinematic_share=1.0",
+                                 "material.0.plastic_heat=dissipation"},
+        std::vector<std::string>{"loading.frame=[1000.0, 0.0]"},
+        std::vector<std::string>{"loading.velocity=0.0",
+                                 "boundary.low={kind='wall', velocity=1100.0}"},
+        std::vector<std::string>{"body_force.acceleration=[1e9, -1e9]"},
+        std::vector<std::string>{"domain.periodic=false", "boundary.lateral=symmetry"}));
+
+TEST(Conservation, EnergyClosesIn3D) {
+  const std::string text = std::string(R"(
+[domain]
+size = [60e-6, 60e-6, 160e-6]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+[sample]
+kind = "random_voids"
+height = 140e-6
+porosity = 0.08
+void_radius = 18e-6
+[loading]
+velocity = 1100
+[time]
+end = 1e-6
+)") + aluminium_text;
+  EXPECT_LT(std::abs(drift_after<3>(scene_of(text), 60)), 1e-12);
+}
+
+TEST(Conservation, EscapedParticlesTakeTheirEnergyAlong) {
+  const Scene scene = scene_of(porous_text(), {"boundary.low=free", "time.end=2e-7"});
+  Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
+  const HistoryRow before = stock(sim);
+  advance_to(1000000, 0, sim);
+  const HistoryRow after = stock(sim);
+  EXPECT_LT(after.particles, before.particles);
+  EXPECT_EQ(after.particles + sum(sim.ledger.escaped_particles, MPI_COMM_WORLD), before.particles);
+  EXPECT_GT(after.escaped, 0.4 * before.total);
+  EXPECT_NEAR(after.total / before.total, 1.0, 1e-13);
+}
+
+TEST(Conservation, MomentumChangesByTheWallImpulseOnly) {
+  Simulation<2> sim = start<2>(scene_of(porous_text()), MPI_COMM_WORLD);
+  const HistoryRow before = stock(sim);
+  advance_to(400, 0, sim);
+  const HistoryRow after = stock(sim);
+  std::vector<Int128> impulse = {sim.ledger.nodes.wall_impulse[0], sim.ledger.nodes.wall_impulse[1]};
+  sum(impulse, MPI_COMM_WORLD);
+  const double scale = std::abs(before.momentum[1]);
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double given = static_cast<double>(impulse[a]) * sim.ledger.momentum_quantum;
+    EXPECT_NEAR(after.momentum[a] - before.momentum[a], given, 1e-12 * scale) << "axis " << a;
+  }
+  EXPECT_NEAR(after.momentum[0], 0.0, 1e-12 * scale);
+}
+
+TEST(Symmetry, ScaledByTwoGivesTheSameBits) {
+  // Without conduction the equations have no length: twice the size and time, the same fields.
+  const auto fields = [](const std::vector<std::string>& overrides, std::int64_t steps) {
+    Simulation<2> sim = start<2>(scene_of(porous_text(), overrides), MPI_COMM_SELF);
+    advance_to(steps, 0, sim);
+    std::vector<std::pair<std::int64_t, std::pair<double, double>>> values;
+    for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+      values.push_back({sim.particles.id[p],
+                        {sim.particles.pressure[p], sim.particles.internal_energy[p]}});
+    }
+    std::sort(values.begin(), values.end());
+    return values;
+  };
+  const auto small = fields({"output.beat=4e-9"}, 200);
+  const auto large = fields({"domain.size=[0.4e-3, 0.88e-3]", "domain.cell=20e-6",
+                             "sample.height=0.8e-3", "sample.void_radius=60e-6", "time.end=2e-6",
+                             "output.beat=8e-9"},
+                            200);
+  EXPECT_TRUE(small == large);
+}
+
+TEST(Symmetry, UniformTranslationStaysQuiet) {
+  // A block that flies through the grid feels nothing.
+  const Scene scene = scene_of(porous_text(), {"boundary.low=free", "domain.size=[0.2e-3, 1.2e-3]",
+                                               "loading.velocity=0.0",
+                                               "loading.frame=[700.0, 1100.0]", "time.end=6e-7"});
+  Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
+  advance_to(1000000, 0, sim);
+  double stress = 0.0, error = 0.0;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    stress = std::max(stress, std::abs(sim.particles.pressure[p]));
+    for (const auto& column : sim.particles.deviator) stress = std::max(stress, std::abs(column[p]));
+    error = std::max({error, std::abs(sim.particles.velocity[0][p] - 700.0),
+                      std::abs(sim.particles.velocity[1][p] - 1100.0)});
+  }
+  EXPECT_GT(sim.clock.step, 500);
+  EXPECT_LT(stress, 1e-9 * 77.28e9);
+  EXPECT_LT(error, 1e-9 * 1100.0);
+}
+
+TEST(Symmetry, MovingWallEqualsFallingBlock) {
+  const auto stress_of = [](const std::vector<std::string>& overrides) {
+    Simulation<2> sim = start<2>(scene_of(porous_text(), overrides), MPI_COMM_WORLD);
+    advance_to(300, 0, sim);
+    HistoryRow row = stock(sim);
+    return row.internal;
+  };
+  const double falling = stress_of({});
+  const double pushed = stress_of({"loading.velocity=0.0",
+                                   "boundary.low={kind='wall', velocity=1100.0}"});
+  EXPECT_NEAR(pushed / falling, 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace poreshock::test

@@ -1,0 +1,166 @@
+// The same scene gives the same bits on any number of ranks, with or without restart or rebalance.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "poreshock/output/checkpoint.hpp"
+#include "poreshock/solver/records.hpp"
+#include "support/runs.hpp"
+
+namespace poreshock::test {
+namespace {
+
+constexpr std::int64_t steps = 300;
+
+template <int Dim>
+std::uint64_t checksum_after(const Scene& scene, int ranks, std::int64_t last,
+                             std::int64_t rebalance_every = 0) {
+  std::uint64_t result = 0;
+  on_ranks(ranks, [&](MPI_Comm part) {
+    Simulation<Dim> sim = start<Dim>(scene, part);
+    advance_to(last, rebalance_every, sim);
+    result = checksum(sim);
+  });
+  return from_rank_zero(result);
+}
+
+template <int Dim>
+void expect_same_on_all_ranks(const Scene& scene, std::int64_t last) {
+  const std::uint64_t alone = checksum_after<Dim>(scene, 1, last);
+  for (int ranks = 2; ranks <= size(MPI_COMM_WORLD); ++ranks) {
+    EXPECT_EQ(checksum_after<Dim>(scene, ranks, last), alone) << ranks << " ranks";
+  }
+}
+
+TEST(SameBits, CubicApicOnAllRanks) {
+  expect_same_on_all_ranks<2>(scene_of(porous_text()), steps);
+}
+
+TEST(SameBits, QuadraticApicAveragedPaperMode) {
+  expect_same_on_all_ranks<2>(
+      scene_of(porous_text(),
+               {"transfer.shape=quadratic", "transfer.averaging=1.0", "thermal=paper"}),
+      steps);
+}
+
+TEST(SameBits, CubicFlipDampedHalfAveragedKinematic) {
+  expect_same_on_all_ranks<2>(
+      scene_of(porous_text(),
+               {"transfer.velocity=flip", "transfer.damping=1e8", "transfer.averaging=0.5",
+                "material.0.kinematic_share=0.5"}),
+      steps);
+}
+
+TEST(SameBits, WallsAllAroundAndMovingPiston) {
+  Scene scene = scene_of(porous_text(), {"domain.periodic=false", "boundary.lateral=wall",
+                                         "boundary.low={kind='wall', velocity=300.0}"});
+  expect_same_on_all_ranks<2>(scene, steps);
+}
+
+TEST(SameBits, OpenSidesAndLeavingParticles) {
+  Scene scene = scene_of(porous_text(), {"domain.periodic=false", "boundary.low=free",
+                                         "loading.velocity=3000.0"});
+  expect_same_on_all_ranks<2>(scene, steps);
+}
+
+TEST(SameBits, SlabsAsThinAsAllowed) {
+  // 15 rows of nodes on 4 ranks: 3 + 3 + 3 + 6, the least that the cubic spline allows.
+  const Scene scene = scene_of(porous_text(), {"domain.size=[0.2e-3, 0.12e-3]",
+                                               "sample.height=0.11e-3", "sample.porosity=0.1",
+                                               "sample.void_radius=20e-6"});
+  if (size(MPI_COMM_WORLD) == 4) {
+    on_ranks(4, [&](MPI_Comm part) {
+      const Simulation<2> sim = start<2>(scene, part);
+      EXPECT_EQ(sim.grid->starts(), (std::vector<int>{0, 3, 6, 9, 15}));
+    });
+  }
+  expect_same_on_all_ranks<2>(scene, steps);
+}
+
+TEST(SameBits, RebalanceChangesNothing) {
+  const Scene scene = scene_of(porous_text());
+  const int ranks = size(MPI_COMM_WORLD);
+  EXPECT_EQ(checksum_after<2>(scene, ranks, steps, 7), checksum_after<2>(scene, 1, steps));
+}
+
+std::string porous_3d_text() {
+  return std::string(R"(
+title = "porous block in 3-D"
+[domain]
+size = [80e-6, 80e-6, 200e-6]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+high = "free"
+[sample]
+kind = "random_voids"
+height = 180e-6
+porosity = 0.1
+void_radius = 20e-6
+[loading]
+velocity = 1100
+[time]
+end = 1e-6
+)") + aluminium_text;
+}
+
+TEST(SameBits, PorousBlockIn3D) { expect_same_on_all_ranks<3>(scene_of(porous_3d_text()), 60); }
+
+/// Writes a checkpoint on `writers` ranks at `middle`, continues on `readers`.
+template <int Dim>
+std::uint64_t checksum_with_restart(const Scene& scene, int writers, int readers,
+                                    std::int64_t middle, std::int64_t last) {
+  const std::string path =
+      std::filesystem::absolute("same_bits_" + std::to_string(size(MPI_COMM_WORLD)) + ".h5");
+  on_ranks(writers, [&](MPI_Comm part) {
+    Simulation<Dim> sim = start<Dim>(scene, part);
+    advance_to(middle, 0, sim);
+    write_checkpoint(path, sim.scene_text, run_state(sim), sim.particles, part);
+  });
+  std::uint64_t result = 0;
+  on_ranks(readers, [&](MPI_Comm part) {
+    Simulation<Dim> sim = resume<Dim>(scene, path, part);
+    EXPECT_EQ(sim.clock.step, middle);
+    advance_to(last, 0, sim);
+    result = checksum(sim);
+  });
+  return from_rank_zero(result);
+}
+
+TEST(SameBits, RestartMidShockOnOtherRanks) {
+  const Scene scene = scene_of(porous_text());
+  const std::uint64_t straight = checksum_after<2>(scene, 1, steps);
+  const int all = size(MPI_COMM_WORLD);
+  for (const int readers : {1, 2}) {
+    if (readers > all) continue;
+    EXPECT_EQ(checksum_with_restart<2>(scene, all, readers, 150, steps), straight)
+        << all << " -> " << readers << " ranks";
+  }
+}
+
+TEST(SameBits, RestartIn3D) {
+  const Scene scene = scene_of(porous_3d_text());
+  EXPECT_EQ(checksum_with_restart<3>(scene, size(MPI_COMM_WORLD), 1, 20, 40),
+            checksum_after<3>(scene, 1, 40));
+}
+
+TEST(SameBits, LedgerAndHistoryRow) {
+  // The exact sums behind a history row must not depend on the ranks either.
+  const Scene scene = scene_of(porous_text());
+  const auto row_on = [&](int ranks) {
+    HistoryRow row;
+    on_ranks(ranks, [&](MPI_Comm part) {
+      Simulation<2> sim = start<2>(scene, part);
+      advance_to(200, 0, sim);
+      row = take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, part);
+    });
+    return from_rank_zero(row);
+  };
+  const HistoryRow alone = row_on(1);
+  const HistoryRow together = row_on(size(MPI_COMM_WORLD));
+  EXPECT_EQ(history_line(alone, 2), history_line(together, 2));
+}
+
+}  // namespace
+}  // namespace poreshock::test

@@ -1,0 +1,90 @@
+#pragma once
+// Small scenes and a bare time loop for tests of whole steps.
+
+#include <functional>
+#include <string>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/scene/read_scene.hpp"
+#include "poreshock/solver/ownership.hpp"
+#include "poreshock/solver/simulation.hpp"
+
+namespace poreshock::test {
+
+inline constexpr const char* aluminium_text = R"(
+[[material]]
+name = "aluminium"
+density = 2700
+young = 69e9
+poisson = 0.33
+yield = 120e6
+hardening = 384e6
+c0 = 5350
+lambda = 1.34
+gamma = 2.0
+cv = 880
+)";
+
+/// Porous block of 20 x 40 cells (void fraction 0.2) that hits a wall at 1100 m/s; `more` is TOML.
+inline std::string porous_text(const std::string& more = "") {
+  return std::string(R"(
+title = "porous block"
+[domain]
+size = [0.2e-3, 0.44e-3]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+high = "free"
+[sample]
+kind = "random_voids"
+height = 0.4e-3
+porosity = 0.2
+void_radius = 30e-6
+[loading]
+velocity = 1100
+[time]
+end = 1e-6
+)") + aluminium_text + more;
+}
+
+inline Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scene(text, "test", overrides);
+}
+
+/// Runs to `step`, with a forced rebalance every `rebalance_every` steps (0 = never). Collective.
+template <int Dim>
+void advance_to(std::int64_t step, std::int64_t rebalance_every, Simulation<Dim>& sim) {
+  while (sim.clock.step < step && sim.clock.time < sim.scene.time.end) {
+    const StepAgreement agreement = agree_on_step(false, sim.clock, sim.communicator);
+    if (agreement.bad_state) throw StateError("state gone bad at " + std::to_string(sim.clock.step));
+    const double dt = next_time_step(sim.scene, sim.clock);
+    advance(sim, dt);
+    tick(sim.scene, dt, sim.clock);
+    migrate(sim);
+    if (rebalance_every > 0 && sim.clock.step % rebalance_every == 0) rebalance(-1.0, sim);
+  }
+}
+
+/// Calls action(communicator) on a communicator of the first `ranks` ranks; others wait. Collective
+/// over all ranks, which must be at least `ranks`.
+inline void on_ranks(int ranks, const std::function<void(MPI_Comm)>& action) {
+  MPI_Comm part = MPI_COMM_NULL;
+  const int me = rank(MPI_COMM_WORLD);
+  MPI_Comm_split(MPI_COMM_WORLD, me < ranks ? 0 : MPI_UNDEFINED, me, &part);
+  if (part != MPI_COMM_NULL) {
+    action(part);
+    MPI_Comm_free(&part);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+/// Value that rank 0 holds, on all ranks. Collective.
+template <class T>
+T from_rank_zero(T value) {
+  MPI_Bcast(&value, sizeof value, MPI_BYTE, 0, MPI_COMM_WORLD);
+  return value;
+}
+
+}  // namespace poreshock::test
