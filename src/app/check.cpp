@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/output/folder.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/scene/read_scene.hpp"
@@ -69,8 +70,9 @@ void check(const Scene& scene, MPI_Comm communicator) {
 }
 
 template <int Dim>
-void sample(const Scene& scene, const std::string& folder, MPI_Comm communicator) {
+void sample(const Scene& scene, const std::string& folder, bool force, MPI_Comm communicator) {
   const Simulation<Dim> sim = start<Dim>(scene, communicator);
+  prepare_output_folder(folder, force, false, communicator);
   write_snapshot<Dim>(folder + "/" + snapshot_name(0),
                       {sim.scene, sim.scene_text, sim.materials, sim.particles, 0, 0, 0.0},
                       communicator);
@@ -86,9 +88,10 @@ void check_scene(const Scene& scene, MPI_Comm communicator) {
   scene.dimension == 2 ? check<2>(scene, communicator) : check<3>(scene, communicator);
 }
 
-void write_sample(const Scene& scene, const std::string& folder, MPI_Comm communicator) {
-  scene.dimension == 2 ? sample<2>(scene, folder, communicator)
-                       : sample<3>(scene, folder, communicator);
+void write_sample(const Scene& scene, const std::string& folder, bool force,
+                  MPI_Comm communicator) {
+  scene.dimension == 2 ? sample<2>(scene, folder, force, communicator)
+                       : sample<3>(scene, folder, force, communicator);
 }
 
 }  // namespace poreshock

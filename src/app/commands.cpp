@@ -10,6 +10,7 @@
 #include "poreshock/output/checkpoint.hpp"
 #include "poreshock/output/folder.hpp"
 #include "poreshock/output/info.hpp"
+#include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/run.hpp"
@@ -49,6 +50,12 @@ void require_same_physics(const Scene& now, const std::string& stored_text, cons
                    "start a new run");
 }
 
+/// A checkpoint from elsewhere does not make an existing folder ours to go on in.
+bool lies_in(const std::string& file, const std::string& folder) {
+  std::error_code none;
+  return std::filesystem::equivalent(folder_of(file), folder, none);
+}
+
 std::string restart_path(const Command& command, MPI_Comm communicator) {
   if (command.restart != "latest") return command.restart;
   std::string note;
@@ -67,15 +74,17 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
                        ? "output/" + std::filesystem::path(command.file).stem().string()
                        : command.output;
   options.wall_limit = command.wall_limit;
+  options.force = command.force;
   options.quiet = command.quiet;
   Command resolved = command;
   resolved.output = options.folder;
   if (!command.restart.empty()) {
     options.restart = restart_path(resolved, communicator);
+    options.continues = lies_in(options.restart, options.folder);
     const CheckpointHeader header = checkpoint_header(options.restart, communicator);
     require_same_physics(scene, header.scene_text, options.restart);
   }
-  prepare_output_folder(options.folder, command.force, !command.restart.empty(), communicator);
+  require_output_folder(options.folder, options.force, options.continues, communicator);
   catch_stop_signals();
   scene.dimension == 2 ? run<2>(scene, options, communicator) : run<3>(scene, options, communicator);
   return ExitCode::success;
@@ -89,7 +98,8 @@ void declare(Command& command, CLI::App& app) {
   run->add_option("--output", command.output, "output folder (default output/<scene>)");
   run->add_option("--restart", command.restart, "checkpoint file, or latest");
   run->add_option("--wall-time", command.wall_limit,
-                  "seconds after which to write a checkpoint and stop");
+                  "seconds after which to write a checkpoint and stop")
+      ->check(CLI::NonNegativeNumber);
   run->add_flag("--force", command.force, "replace our files in an existing output folder");
   run->add_flag("--quiet", command.quiet, "no progress rows");
   run->callback([&command] { command.kind = CommandKind::run; });
@@ -119,8 +129,8 @@ ExitCode execute(const Command& command, MPI_Comm communicator) {
           command.output.empty()
               ? "output/" + std::filesystem::path(command.file).stem().string() + "-sample"
               : command.output;
-      prepare_output_folder(folder, command.force, false, communicator);
-      write_sample(scene, folder, communicator);
+      require_output_folder(folder, command.force, false, communicator);
+      write_sample(scene, folder, command.force, communicator);
       return ExitCode::success;
     }
     case CommandKind::info:

@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
     app.parse(program_argc, argv);
   } catch (const CLI::ParseError& error) {
     const char* ranked = std::getenv("OMPI_COMM_WORLD_RANK");
-    if (ranked != nullptr && std::string_view(ranked) != "0") return error.get_exit_code() == 0 ? 0 : 2;
+    // mpirun ends all ranks as soon as one fails, so that only the rank that prints may.
+    if (ranked != nullptr && std::string_view(ranked) != "0") return 0;
     return app.exit(error) == 0 ? 0 : static_cast<int>(poreshock::ExitCode::bad_input);
   }
   const poreshock::Runtime runtime(argc, argv);

@@ -51,7 +51,8 @@ void check_writable(const std::string& folder) {
   }
 }
 
-void prepare(const std::string& path, bool force, bool restart) {
+/// True when the folder exists and may be used; throws when it may not.
+bool usable(const std::string& path, bool force, bool restart) {
   std::error_code error;
   const bool exists = fs::exists(fs::symlink_status(path, error));
   if (exists && !fs::is_directory(path, error)) {
@@ -62,7 +63,12 @@ void prepare(const std::string& path, bool force, bool restart) {
                      ": exists already; choose another with --output, overwrite it with --force, "
                      "or go on from a checkpoint in it with --restart latest");
   }
-  if (!exists) {
+  return exists;
+}
+
+void prepare(const std::string& path, bool force, bool restart) {
+  std::error_code error;
+  if (!usable(path, force, restart)) {
     fs::create_directories(path, error);
     if (error) throw InputError("output folder " + path + ": cannot be made: " + error.message());
   }
@@ -75,6 +81,11 @@ void prepare(const std::string& path, bool force, bool restart) {
 }
 
 }  // namespace
+
+void require_output_folder(const std::string& path, bool force, bool restart,
+                           MPI_Comm communicator) {
+  on_rank_zero(communicator, [&] { usable(path, force, restart); });
+}
 
 void prepare_output_folder(const std::string& path, bool force, bool restart,
                            MPI_Comm communicator) {

@@ -44,7 +44,7 @@ void show_progress(bool quiet, const Simulation<Dim>& sim, const Recorder<Dim>& 
 /// Step limit, health and stop requests of all ranks; true when the run has been asked to stop.
 /// Throws StateError. Collective.
 template <int Dim>
-bool agree(const RunOptions& options, const Progress& progress, Simulation<Dim>& sim) {
+bool synchronise(const RunOptions& options, const Progress& progress, Simulation<Dim>& sim) {
   const Phase phase(sim.phases, PhaseName::time_step);
   const double wall = MPI_Wtime() - progress.start_wall;
   const bool out_of_time = options.wall_limit > 0.0 && wall > options.wall_limit;
@@ -68,7 +68,7 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   tick(sim.scene, dt, sim.clock);
   // First of all: a checkpoint keeps the limit of all ranks, and a position that is not finite has
   // no row to go to.
-  const bool stop_asked = agree(options, progress, sim);
+  const bool stop_asked = synchronise(options, progress, sim);
   migrate(sim);
   if (sim.clock.step % rebalance_interval == 0) rebalance(least_rebalance_gain, sim);
   return stop_asked;
@@ -105,7 +105,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
                  Progress& progress) {
   const TimeControl& limits = sim.scene.time;
   if (options.restart.empty()) record(false, sim, recorder);
-  bool stop_asked = agree(options, progress, sim);
+  bool stop_asked = synchronise(options, progress, sim);
   while (sim.clock.time < limits.end &&
          (limits.max_steps == 0 || sim.clock.step < limits.max_steps)) {
     if (stop_asked) {
@@ -134,6 +134,8 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);
+  // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
+  prepare_output_folder(options.folder, options.force, options.continues, communicator);
   on_rank_zero(communicator,
                [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
   if (restarted) remove_records_from(options.folder, sim.clock.beat + 1, communicator);

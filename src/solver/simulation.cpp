@@ -114,7 +114,11 @@ RunState run_state(const Simulation<Dim>& sim) {
   state.last_dt = sim.clock.allowed;
   state.beat = sim.clock.beat;
   state.record = sim.clock.beat + 1;
-  for (const double x : {sim.clock.limit, sim.clock.first_limit, sim.ledger.energy_quantum,
+  // Between two steps every rank knows only its own particles' limit; the next step needs them all.
+  double limit = sim.clock.limit;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MIN, sim.communicator),
+            "MPI_Allreduce of the time step");
+  for (const double x : {limit, sim.clock.first_limit, sim.ledger.energy_quantum,
                          sim.ledger.momentum_quantum}) {
     state.integers.push_back(std::bit_cast<std::int64_t>(x));
   }

@@ -14,8 +14,8 @@ namespace poreshock {
 /// Collective.
 void check_scene(const Scene& scene, MPI_Comm communicator);
 
-/// Makes the sample, prints what was achieved and writes it as snapshot_000000.h5. Throws InputError.
-/// Collective.
-void write_sample(const Scene& scene, const std::string& folder, MPI_Comm communicator);
+/// Makes the sample, prints what was achieved, prepares the folder (`force` replaces our files in an
+/// existing one) and writes the sample into it as snapshot_000000.h5. Throws InputError. Collective.
+void write_sample(const Scene& scene, const std::string& folder, bool force, MPI_Comm communicator);
 
 }  // namespace poreshock

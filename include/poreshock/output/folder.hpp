@@ -8,6 +8,11 @@
 
 namespace poreshock {
 
+/// Throws the InputError with which prepare_output_folder would refuse what exists at `path`, and
+/// changes nothing: to be asked before long work. Rank 0 works. Collective.
+void require_output_folder(const std::string& path, bool force, bool restart,
+                           MPI_Comm communicator);
+
 /// Makes an output folder and proves that it can be written to. An existing one is refused with
 /// InputError, unless `force` (our own files in it are removed, others stay) or `restart` (nothing
 /// is removed but unfinished files of a killed run). Rank 0 works. Collective.

@@ -13,14 +13,17 @@ namespace poreshock {
 struct RunOptions {
   std::string folder;
   std::string restart;      ///< checkpoint file; empty = from the start
+  bool continues = false;   ///< the checkpoint lies in `folder`, whose records go on
+  bool force = false;       ///< replace our files in an existing folder
   double wall_limit = 0.0;  ///< s, 0 = none: checkpoint and stop before it
   bool quiet = false;       ///< no progress rows
 };
 
 enum class RunEnd { finished, stopped };
 
-/// Runs the scene into an output folder that was prepared. Prints on rank 0. Throws InputError,
-/// StateError (failed.h5 is written first) or SystemError on all ranks. Collective.
+/// Runs the scene into an output folder, which is prepared once the sample or the checkpoint is in
+/// memory. Prints on rank 0. Throws InputError, StateError (failed.h5 is written first) or
+/// SystemError on all ranks. Collective.
 template <int Dim>
 RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator);
 
