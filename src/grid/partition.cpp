@@ -18,39 +18,43 @@ int least_rows(int part, int parts, SlabLimits limits) {
   return part == parts - 1 ? limits.last : limits.inner;
 }
 
-/// Fills slabs from below as full as `bottleneck` allows, keeping enough rows for those above.
-/// Empty when a slab would exceed the bottleneck.
-std::vector<int> chain_within(const std::vector<double>& weights, int parts, SlabLimits limits,
+/// Row starts of slabs no heavier than `bottleneck`, empty when there are none. `below[row]` is the
+/// weight of all rows below `row`. A slab may have to stay lighter than it could be, so that the
+/// rows the next one must take are not too heavy: all reachable ends are followed, not the furthest
+/// only.
+std::vector<int> chain_within(const std::vector<double>& below, int parts, SlabLimits limits,
                               double bottleneck) {
-  const int rows = static_cast<int>(weights.size());
-  std::vector<int> reserve(static_cast<std::size_t>(parts) + 1, 0);
-  for (int part = parts - 1; part > 0; --part) {
-    reserve[part] = reserve[part + 1] + least_rows(part, parts, limits);
-  }
-  std::vector<int> starts = {0};
+  const int rows = static_cast<int>(below.size()) - 1;
+  std::vector<std::vector<int>> start_of(parts, std::vector<int>(below.size(), -1));
+  // Last row not above the index at which the slabs so far can end, -1 for none.
+  std::vector<int> latest(below.size(), 0), next(below.size());
   for (int part = 0; part < parts; ++part) {
-    int row = starts.back();
-    const int first_allowed = row + least_rows(part, parts, limits);
-    const int last_allowed = rows - (part + 1 < parts ? reserve[part + 1] : 0);
-    double weight = 0.0;
-    while (row < last_allowed && (row < first_allowed || weight + weights[row] <= bottleneck)) {
-      weight += weights[row++];
+    const int least = least_rows(part, parts, limits);
+    for (int end = 0; end <= rows; ++end) {
+      // The latest start makes the lightest slab with this end.
+      const int start = end < least ? -1 : latest[end - least];
+      if (start >= 0 && below[end] - below[start] <= bottleneck) start_of[part][end] = start;
+      next[end] = start_of[part][end] >= 0 ? end : (end > 0 ? next[end - 1] : -1);
     }
-    if (weight > bottleneck) return {};
-    starts.push_back(row);
+    latest.swap(next);
   }
-  if (starts.back() != rows) return {};
+  if (start_of.back()[rows] < 0) return {};
+  std::vector<int> starts = {rows};
+  for (int part = parts - 1; part >= 0; --part) starts.push_back(start_of[part][starts.back()]);
+  std::reverse(starts.begin(), starts.end());
   return starts;
 }
 
 /// Exact smallest bottleneck by bisection over the attainable range.
 std::vector<int> chain_partition(const std::vector<double>& weights, int parts, SlabLimits limits) {
+  std::vector<double> below = {0.0};
+  for (const double weight : weights) below.push_back(below.back() + weight);
   double low = 0.0;
-  double high = std::accumulate(weights.begin(), weights.end(), 0.0);
-  std::vector<int> best = chain_within(weights, parts, limits, 2.0 * high + 1.0);
+  double high = below.back();
+  std::vector<int> best = chain_within(below, parts, limits, high);
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
-    std::vector<int> starts = chain_within(weights, parts, limits, middle);
+    std::vector<int> starts = chain_within(below, parts, limits, middle);
     if (starts.empty()) {
       low = middle;
     } else {
@@ -103,8 +107,8 @@ std::vector<int> metis_partition(const std::vector<double>& weights, int parts, 
 double heaviest(const std::vector<double>& weights, const std::vector<int>& starts) {
   double result = 0.0;
   for (std::size_t p = 0; p + 1 < starts.size(); ++p) {
-    result = std::max(result, std::accumulate(weights.begin() + starts[p],
-                                              weights.begin() + starts[p + 1], 0.0));
+    result = std::max(
+        result, std::accumulate(weights.begin() + starts[p], weights.begin() + starts[p + 1], 0.0));
   }
   return result;
 }
@@ -114,8 +118,9 @@ std::vector<int> partition_rows(const std::vector<double>& weights, int parts, S
   int needed = 0;
   for (int p = 0; p < parts; ++p) needed += least_rows(p, parts, limits);
   if (parts > 1 && needed > rows) {
-    throw InputError("the domain has " + std::to_string(rows) + " rows of nodes along the shock axis, " +
-                     std::to_string(parts) + " ranks need at least " + std::to_string(needed) +
+    throw InputError("the domain has " + std::to_string(rows) +
+                     " rows of nodes along the shock axis, " + std::to_string(parts) +
+                     " ranks need at least " + std::to_string(needed) +
                      ": use fewer ranks or smaller cells");
   }
   if (parts == 1) return {0, rows};

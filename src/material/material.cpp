@@ -11,7 +11,6 @@ Material make_material(const MaterialParameters& p) {
   m.strength.kinematic = p.kinematic_share * p.hardening;
   m.temperature = make_temperature_curve(m.eos);
   m.plastic_heat = p.plastic_heat;
-  m.spall = p.spall.value_or(0.0);
   return m;
 }
 

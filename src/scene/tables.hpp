@@ -91,8 +91,6 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
   visitor.number("conductivity", material.conductivity,
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
   visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
-  visitor.number("spall", material.spall,
-                 {positive, "Pa", "tension at which the material parts; without it, never"});
 }
 
 /// Index of a material by its name; the first material by default.
@@ -244,7 +242,6 @@ void visit_output(Visitor& visitor, Output& output) {
   visitor.fallback(output.fields, particle_datasets);
   visitor.names("fields", output.fields, particle_datasets,
                 {"particle datasets of a snapshot, by default all"});
-  visitor.flag("grid", output.grid, {"true to write the fields of the grid too"});
   choice(visitor, "precision", output.precision, precisions, {"of the numbers in a snapshot"});
 }
 

@@ -199,14 +199,11 @@ TEST(Temperature, FluidStoresNothing) {
 TEST(Temperature, MaterialConstants) {
   MaterialParameters p = aluminium();
   p.kinematic_share = 0.25;
-  p.spall = 1e9;
   const J2MieGruneisen m = solid_with(p);
   EXPECT_NEAR(m.strength.shear, 25.94e9, 5e6);
   EXPECT_EQ(m.strength.yield, 120e6);
   EXPECT_EQ(m.strength.isotropic, 288e6);
   EXPECT_EQ(m.strength.kinematic, 96e6);
-  EXPECT_EQ(m.spall, 1e9);
-  EXPECT_EQ(solid_with(aluminium()).spall, 0.0);
   EXPECT_EQ(solid_with(aluminium()).strength.kinematic, 0.0);
 }
 

@@ -80,7 +80,6 @@ gamma = 2.0
 cv = 880
 conductivity = 237
 T0 = 293.15
-spall = 1.2e9
 [[material]]
 name = "water"
 density = 1000
@@ -144,7 +143,6 @@ beat = 1e-9
 snapshot = 1e-8
 history = 3e-9
 fields = ["stress", "id"]
-grid = true
 precision = "single"
 [morphology]
 every = 2e-9

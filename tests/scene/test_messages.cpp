@@ -46,8 +46,8 @@ TEST(Messages, WrongTypes) {
             "s.toml:2:8: domain.size: found 1e-04, allowed an array of 2 or 3 numbers > 0 (m)");
   EXPECT_EQ(problems(small_scene("max_steps = 3.0\n")),
             "s.toml:18:13: time.max_steps: found 3.0, allowed a whole number >= 0");
-  EXPECT_EQ(problems(small_scene("[output]\ngrid = 1\n")),
-            "s.toml:19:8: output.grid: found 1, allowed true or false");
+  EXPECT_EQ(override_problems("sample.overlap=1"),
+            "--set sample.overlap=1: sample.overlap: found 1, allowed true or false");
   EXPECT_EQ(problems(small_scene("[[loading]]\nvelocity = 1\n")),
             "s.toml:18:1: loading: found an array of 1, allowed a table [loading]");
   EXPECT_EQ(problems(small_scene("[body]\nshape = \"box\"\n")),

@@ -34,7 +34,6 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.sample.height, 2e-4);
   EXPECT_EQ(scene.sample.particles_per_cell, 2);
   EXPECT_EQ(scene.materials[0].T0, 300.0);
-  EXPECT_FALSE(scene.materials[0].spall.has_value());
   EXPECT_EQ(scene.time.cfl, 0.35);
   EXPECT_EQ(scene.transfer, Transfer{});
   EXPECT_EQ(scene.viscosity, Viscosity{});
@@ -54,7 +53,6 @@ TEST(Scenes, EveryKeyOf2D) {
   EXPECT_EQ(scene.boundary.lateral[0], SideKind::symmetry);
   EXPECT_EQ(scene.materials.size(), 2u);
   EXPECT_EQ(scene.materials[0].plastic_heat, PlasticHeat::dissipation);
-  EXPECT_EQ(scene.materials[0].spall, 1.2e9);
   EXPECT_EQ(scene.sample.material, 1);
   EXPECT_EQ(scene.sample.seed, 9223372036854775807u);
   ASSERT_EQ(scene.bodies.size(), 3u);

@@ -4,7 +4,6 @@
 // models are listed once, in the variant `Material`.
 
 #include <concepts>
-#include <optional>
 #include <string>
 #include <variant>
 
@@ -33,7 +32,6 @@ struct MaterialParameters {
   double cv = 0.0;               ///< J/(kg K)
   double conductivity = 0.0;     ///< W/(m K)
   double T0 = 300.0;             ///< K
-  std::optional<double> spall;   ///< Pa, tension at which the material parts
 
   bool operator==(const MaterialParameters&) const = default;
 };
@@ -44,7 +42,6 @@ struct J2MieGruneisen {
   J2Plasticity strength;
   TemperatureCurve temperature;
   PlasticHeat plastic_heat = PlasticHeat::work;
-  double spall = 0.0;            ///< Pa; 0 = no spall
 
   /// Energy per mass stored in the deviator, s:s/(4 G rho), J/kg; zero for a fluid.
   double deviatoric_energy(double deviator_square, double density) const {

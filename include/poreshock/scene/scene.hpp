@@ -115,7 +115,6 @@ struct Output {
   double snapshot = 0.0;            ///< s between snapshots, 0 = only first and last
   double history = 0.0;             ///< s between history rows, derived default: beat
   std::vector<std::string> fields;  ///< particle datasets of a snapshot; default all
-  bool grid = false;                ///< also write grid fields
   Precision precision = Precision::double_precision;
   bool operator==(const Output&) const = default;
 };
