@@ -62,11 +62,13 @@ void check(const Scene& scene, MPI_Comm communicator) {
                        8.0 * (Dim * Dim + rate_size<Dim> + 1) + 8.0;
   const double rate = assumed_rate[Dim - 2] * size(communicator);
   std::printf("typical time step       %.3g s, about %.0f steps\n", dt, steps);
-  std::printf("memory                  %.0f MB for particles (%.0f bytes each), %.0f MB for nodes\n",
-              particles * bytes * 1e-6, bytes, static_cast<double>(grid_bytes) * 1e-6);
-  std::printf("time to go              about %.0f s on %d ranks at %.1f million particle-steps per "
-              "second per core\n",
-              particles * steps / rate, size(communicator), assumed_rate[Dim - 2] * 1e-6);
+  std::printf(
+      "memory                  %.0f MB for particles (%.0f bytes each), %.0f MB for nodes\n",
+      particles * bytes * 1e-6, bytes, static_cast<double>(grid_bytes) * 1e-6);
+  std::printf(
+      "time to go              about %.0f s on %d ranks at %.1f million particle-steps per "
+      "second per core\n",
+      particles * steps / rate, size(communicator), assumed_rate[Dim - 2] * 1e-6);
 }
 
 template <int Dim>

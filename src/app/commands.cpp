@@ -34,7 +34,8 @@ Scene read_everywhere(const Command& command, MPI_Comm communicator) {
 }
 
 /// On restart only the end, the output, the checkpoints and the morphology may differ.
-void require_same_physics(const Scene& now, const std::string& stored_text, const std::string& path) {
+void require_same_physics(const Scene& now, const std::string& stored_text,
+                          const std::string& path) {
   Scene stored = parse_scene(stored_text, path);
   stored.title = now.title;
   stored.time.end = now.time.end;
@@ -45,7 +46,8 @@ void require_same_physics(const Scene& now, const std::string& stored_text, cons
   stored.checkpoint = now.checkpoint;
   stored.morphology = now.morphology;
   if (stored == now) return;
-  throw InputError(path + " was written by a scene that differs in more than its end time, output, "
+  throw InputError(path +
+                   " was written by a scene that differs in more than its end time, output, "
                    "checkpoint and morphology settings: restart with the scene.toml beside it, or "
                    "start a new run");
 }
@@ -86,7 +88,8 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   }
   require_output_folder(options.folder, options.force, options.continues, communicator);
   catch_stop_signals();
-  scene.dimension == 2 ? run<2>(scene, options, communicator) : run<3>(scene, options, communicator);
+  scene.dimension == 2 ? run<2>(scene, options, communicator)
+                       : run<3>(scene, options, communicator);
   return ExitCode::success;
 }
 

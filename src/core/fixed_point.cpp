@@ -11,7 +11,8 @@ double power_of_two_below(double value) {
 }
 
 void sum(std::vector<Int128>& values, MPI_Comm communicator) {
-  // Split into a signed high part and a 40-bit low part: sums over up to 2^23 ranks cannot overflow.
+  // Split into a signed high part and a 40-bit low part: sums over up to 2^23 ranks cannot
+  // overflow.
   std::vector<std::int64_t> parts;
   for (const Int128 value : values) {
     parts.push_back(static_cast<std::int64_t>(value >> 40));

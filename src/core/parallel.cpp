@@ -13,7 +13,9 @@ Runtime::Runtime(int& argc, char**& argv) {
   check_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
 }
 
-Runtime::~Runtime() { PetscFinalize(); }
+Runtime::~Runtime() {
+  PetscFinalize();
+}
 
 int rank(MPI_Comm communicator) {
   int result = 0;
@@ -70,7 +72,11 @@ void broadcast(std::string& text, MPI_Comm communicator) {
             "MPI_Bcast");
 }
 
-std::string version() { return PORESHOCK_VERSION; }
-std::string revision() { return PORESHOCK_REVISION; }
+std::string version() {
+  return PORESHOCK_VERSION;
+}
+std::string revision() {
+  return PORESHOCK_REVISION;
+}
 
 }  // namespace poreshock

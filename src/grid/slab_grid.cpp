@@ -59,8 +59,9 @@ SlabGrid::SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm com
   check_petsc(VecGetArray(node_vector_, &node_array_), "VecGetArray");
   check_petsc(VecGetArray(seam_vector_, &seam_array_), "VecGetArray");
   PetscInt ghost_row = 0;
-  check_petsc(DMDAGetGhostCorners(node_dm_, nullptr, &ghost_row, nullptr, nullptr, nullptr, nullptr),
-              "DMDAGetGhostCorners");
+  check_petsc(
+      DMDAGetGhostCorners(node_dm_, nullptr, &ghost_row, nullptr, nullptr, nullptr, nullptr),
+      "DMDAGetGhostCorners");
   nodes_ = reinterpret_cast<Lanes*>(node_array_) +
            static_cast<std::ptrdiff_t>(first_ - ghost_row) * shape.row_size;
   seam_ = reinterpret_cast<Lanes*>(seam_array_) +
@@ -81,7 +82,8 @@ int SlabGrid::owner(int row) const {
   return static_cast<int>(above - starts_.begin()) - 1;
 }
 
-// Plane of my row first + row_offset for the node row first + node_offset (node_offset >= row_offset).
+// Plane of my row first + row_offset for the node row first + node_offset (node_offset >=
+// row_offset).
 int SlabGrid::down_plane(int row_offset, int node_offset) const {
   const int depth = shape_.stencil - 1;
   return row_offset * depth - row_offset * (row_offset - 1) / 2 + (node_offset - row_offset);
@@ -105,7 +107,8 @@ void SlabGrid::add_row(int row, const Lanes* buffer) {
     const int node_row = row + k;
     const Lanes* source = buffer + k * width;
     if (has_below_ && node_row < first_ + depth) {
-      std::copy(source, source + width, seam_ + down_plane(row - first_, node_row - first_) * width);
+      std::copy(source, source + width,
+                seam_ + down_plane(row - first_, node_row - first_) * width);
     } else if (has_above_ && node_row >= last_) {
       std::copy(source, source + width,
                 seam_ + up_plane(row - (last_ - depth), node_row - last_) * width);
@@ -157,8 +160,8 @@ void SlabGrid::exchange() {
 
 namespace {
 
-/// Calls visit(image, original) for every pair of node indices of a row that periodicity identifies,
-/// axis after axis.
+/// Calls visit(image, original) for every pair of node indices of a row that periodicity
+/// identifies, axis after axis.
 template <class Visitor>
 void for_each_image(const GridShape& shape, Visitor&& visit) {
   const int nx = shape.nodes[0];

@@ -9,7 +9,8 @@ namespace poreshock {
 
 namespace {
 
-/// Removes the particles at `holes` (any order, distinct) by moving the last ones into their places.
+/// Removes the particles at `holes` (any order, distinct) by moving the last ones into their
+/// places.
 template <int Dim>
 void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
   if (holes.empty()) return;
@@ -79,8 +80,9 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
   }
   std::vector<std::int64_t> sent, received(static_cast<std::size_t>(ranks));
   for (const auto& indices : leaving) sent.push_back(static_cast<std::int64_t>(indices.size()));
-  check_mpi(MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator),
-            "MPI_Alltoall of particle counts");
+  check_mpi(
+      MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator),
+      "MPI_Alltoall of particle counts");
   // One particle is one unit of transfer, so counts stay below 2^31 per pair of ranks.
   MPI_Datatype unit;
   MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &unit);

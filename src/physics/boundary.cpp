@@ -13,12 +13,14 @@ enum class Place { inside, on_plane, mirrored };
 /// Where a node index lies with respect to the mirror planes of one axis, and its image.
 struct AxisPlace {
   Place place = Place::inside;
-  int image = 0;       ///< index of the mirror image
-  int inward = 0;      ///< +1 at the low plane, -1 at the high one
+  int image = 0;   ///< index of the mirror image
+  int inward = 0;  ///< +1 at the low plane, -1 at the high one
   SideKind kind = SideKind::free;
 };
 
-bool mirrors(SideKind kind) { return kind == SideKind::wall || kind == SideKind::symmetry; }
+bool mirrors(SideKind kind) {
+  return kind == SideKind::wall || kind == SideKind::symmetry;
+}
 
 /// The planes lie at node 1 and node count - 2; one row of nodes beyond each is in use.
 AxisPlace axis_place(int index, int count, SideKind low, SideKind high) {
@@ -48,8 +50,9 @@ struct MirrorSet {
 };
 
 template <int Dim>
-MirrorSet<Dim> mirror_set(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim>& active,
-                          const std::array<int, Dim>& index, SlabGrid& grid) {
+MirrorSet<Dim> mirror_set(const std::array<AxisPlace, Dim>& place,
+                          const std::array<bool, Dim>& active, const std::array<int, Dim>& index,
+                          SlabGrid& grid) {
   MirrorSet<Dim> set;
   set.place = place;
   for (int flips = 0; flips < (1 << Dim); ++flips) {
@@ -83,8 +86,8 @@ std::array<double, Dim> symmetric_velocity(const MirrorSet<Dim>& set, const Vect
     const Lanes& node = *set.member[k].node;
     mass += node[Motion::mass];
     for (int a = 0; a < Dim; ++a) {
-      momentum[a] += set.member[k].sign[a] * node[Motion::mass] *
-                     (node[Motion::end_velocity + a] - plane[a]);
+      momentum[a] +=
+          set.member[k].sign[a] * node[Motion::mass] * (node[Motion::end_velocity + a] - plane[a]);
     }
   }
   std::array<double, Dim> velocity{};
@@ -102,8 +105,8 @@ double inward_impulse(const MirrorSet<Dim>& set, const std::array<double, Dim>& 
   double impulse = 0.0;
   for (int k = 0; k < set.size; ++k) {
     const Lanes& node = *set.member[k].node;
-    impulse += node[Motion::mass] * (set.member[k].sign[a] * velocity[a] + plane[a] -
-                                     node[Motion::end_velocity + a]);
+    impulse += node[Motion::mass] *
+               (set.member[k].sign[a] * velocity[a] + plane[a] - node[Motion::end_velocity + a]);
   }
   return impulse * set.place[a].inward;
 }
@@ -139,7 +142,8 @@ void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity, 
   }
 }
 
-/// Projects one set; where a wall would pull, its axis is given up and both halves are tried without.
+/// Projects one set; where a wall would pull, its axis is given up and both halves are tried
+/// without.
 template <int Dim>
 void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim>& active,
              const std::array<int, Dim>& index, const Vector<Dim>& plane, SlabGrid& grid,

@@ -51,8 +51,8 @@ void add_body_work(const Vector<Dim>& body_force, double dt, const SlabGrid& gri
       for (int a = 0; a < Dim; ++a) {
         power += body_force[a] * 0.5 *
                  (nodes[i][Motion::start_velocity + a] + nodes[i][Motion::end_velocity + a]);
-        ledger.body_impulse[a] += quantise(nodes[i][Motion::mass] * body_force[a] * dt,
-                                           ledger.inverse_momentum_quantum);
+        ledger.body_impulse[a] +=
+            quantise(nodes[i][Motion::mass] * body_force[a] * dt, ledger.inverse_momentum_quantum);
       }
       ledger.body_work +=
           quantise(nodes[i][Motion::mass] * power * dt, ledger.inverse_energy_quantum);

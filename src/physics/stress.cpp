@@ -160,9 +160,8 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;
   const double sound_speed = std::sqrt(c2 + 4.0 * m.strength.shear * volume / 3.0);
-  const ViscousStep next =
-      viscous_step(settings.viscosity, settings.cell, settings.cfl, density, sound_speed,
-                   dilatation_end, strain_rate, speed);
+  const ViscousStep next = viscous_step(settings.viscosity, settings.cell, settings.cfl, density,
+                                        sound_speed, dilatation_end, strain_rate, speed);
 
   for (int k = 0; k < size; ++k) c.deviator[k][i] = mapped.deviator[k];
   if constexpr (Kinematic) {
@@ -198,8 +197,8 @@ void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count,
 }
 
 template <int Dim, bool Kinematic, bool Conserving, bool Averaging>
-void update_block(const J2MieGruneisen& material, const StressSettings<Dim>& all_settings, double dt,
-                  const Columns<Dim>& all_columns, std::size_t first, std::size_t count,
+void update_block(const J2MieGruneisen& material, const StressSettings<Dim>& all_settings,
+                  double dt, const Columns<Dim>& all_columns, std::size_t first, std::size_t count,
                   StressReport& report) {
   BlockResults results;
   // Local copies: the compiler sees that stores through the columns cannot change them.
@@ -243,12 +242,13 @@ void update_all(const std::vector<Material>& materials, const StressSettings<Dim
           if (settings.averaging) {
             conserving
                 ? update_block<Dim, Kinematic, true, true>(m, settings, dt, c, first, count, report)
-                : update_block<Dim, Kinematic, false, true>(m, settings, dt, c, first, count, report);
+                : update_block<Dim, Kinematic, false, true>(m, settings, dt, c, first, count,
+                                                            report);
           } else {
-            conserving
-                ? update_block<Dim, Kinematic, true, false>(m, settings, dt, c, first, count, report)
-                : update_block<Dim, Kinematic, false, false>(m, settings, dt, c, first, count,
-                                                             report);
+            conserving ? update_block<Dim, Kinematic, true, false>(m, settings, dt, c, first, count,
+                                                                   report)
+                       : update_block<Dim, Kinematic, false, false>(m, settings, dt, c, first,
+                                                                    count, report);
           }
         },
         materials[static_cast<std::size_t>(material)]);

@@ -100,7 +100,8 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
     }
     const double stored = std::visit(
         [&](const auto& model) {
-          double e = model.deviatoric_energy(square<Dim>(particles.deviator, p), particles.density[p]);
+          double e =
+              model.deviatoric_energy(square<Dim>(particles.deviator, p), particles.density[p]);
           if (particles.options.back_stress) {
             e += model.back_stress_energy(square<Dim>(particles.back_stress, p),
                                           particles.density[p]);
@@ -124,10 +125,9 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
                               momentum[1],
                               momentum[2]};
   sum(sums, communicator);
-  std::vector<std::int64_t> counts = {
-      static_cast<std::int64_t>(particles.size()),
-      ledger.guards.compression + ledger.guards.sound_speed + ledger.guards.wall_crossing +
-          ledger.guards.temperature};
+  std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
+                                      ledger.guards.compression + ledger.guards.sound_speed +
+                                          ledger.guards.wall_crossing + ledger.guards.temperature};
   sum(counts, communicator);
   const auto energy = [&](Int128 quanta) {
     return static_cast<double>(quanta) * ledger.energy_quantum;
@@ -155,8 +155,8 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
 template <int Dim>
 void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia, Ledger& ledger) {
   ++ledger.escaped_particles;
-  ledger.escaped_energy += quantise(kinetic_energy<Dim>(particles, p, inertia),
-                                    ledger.nodes.inverse_energy_quantum);
+  ledger.escaped_energy +=
+      quantise(kinetic_energy<Dim>(particles, p, inertia), ledger.nodes.inverse_energy_quantum);
   ledger.escaped_energy += quantise(particles.mass[p] * particles.internal_energy[p],
                                     ledger.nodes.inverse_energy_quantum);
   for (int a = 0; a < Dim; ++a) {

@@ -44,12 +44,14 @@ bool confine(SideKind low, SideKind high, double length, double& x, std::int64_t
 }
 
 template <int Dim>
-bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles, std::int64_t& crossings) {
+bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
+             std::int64_t& crossings) {
   for (int a = 0; a < Dim; ++a) {
     const bool shock_axis = a == Dim - 1;
     const SideKind low = shock_axis ? scene.boundary.low.kind : scene.boundary.lateral[a];
     const SideKind high = shock_axis ? scene.boundary.high.kind : scene.boundary.lateral[a];
-    if (!confine(low, high, scene.domain.size[a], particles.position[a][p], crossings)) return false;
+    if (!confine(low, high, scene.domain.size[a], particles.position[a][p], crossings))
+      return false;
   }
   return true;
 }
@@ -63,8 +65,8 @@ void sort_particles(Simulation<Dim>& sim) {
   const bool cubic = shape.stencil == 4;
   const double inverse_cell = 1.0 / shape.cell;
   Particles<Dim>& particles = sim.particles;
-  const std::size_t cells = static_cast<std::size_t>(sim.grid->last_row() - sim.grid->first_row()) *
-                            shape.row_size;
+  const std::size_t cells =
+      static_cast<std::size_t>(sim.grid->last_row() - sim.grid->first_row()) * shape.row_size;
   std::vector<std::uint32_t>& cell = sim.cell_scratch;
   cell.resize(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -115,8 +117,7 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
   }
   sum(count, sim.communicator);
   const std::vector<double> weights(count.begin(), count.end());
-  std::vector<int> starts =
-      partition_rows(weights, size(sim.communicator), slab_limits(shape));
+  std::vector<int> starts = partition_rows(weights, size(sim.communicator), slab_limits(shape));
   if (sim.grid) {
     const double now = heaviest(weights, sim.grid->starts());
     if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;

@@ -40,7 +40,8 @@ std::string duration(double s) {
 }  // namespace
 
 std::string progress_header() {
-  return "    step   time ns     dt ns    kinetic   internal     drift   M/s/core  comm  imbal    to go";
+  return "    step   time ns     dt ns    kinetic   internal     drift   M/s/core  comm  imbal    "
+         "to go";
 }
 
 std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
@@ -81,10 +82,9 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progre
   timings.wall_seconds = MPI_Wtime() - progress.start_wall;
   timings.steps = clock.step - progress.first_step;
   timings.particle_steps = sum(progress.particle_steps, communicator);
-  timings.rate_per_core = timings.wall_seconds > 0.0
-                              ? static_cast<double>(timings.particle_steps) /
-                                    (timings.wall_seconds * timings.ranks)
-                              : 0.0;
+  timings.rate_per_core = timings.wall_seconds > 0.0 ? static_cast<double>(timings.particle_steps) /
+                                                           (timings.wall_seconds * timings.ranks)
+                                                     : 0.0;
   timings.phases = gather_phases(phases, communicator);
   return timings;
 }
@@ -97,10 +97,11 @@ std::string timings_table(const Timings& timings) {
                   phase.min, phase.avg, phase.max, 100.0 * phase.avg / timings.wall_seconds);
     table += line;
   }
-  std::snprintf(line, sizeof line,
-                "%lld steps in %.1f s on %d ranks: %.2f million particle-steps per second per core\n",
-                static_cast<long long>(timings.steps), timings.wall_seconds, timings.ranks,
-                timings.rate_per_core * 1e-6);
+  std::snprintf(
+      line, sizeof line,
+      "%lld steps in %.1f s on %d ranks: %.2f million particle-steps per second per core\n",
+      static_cast<long long>(timings.steps), timings.wall_seconds, timings.ranks,
+      timings.rate_per_core * 1e-6);
   return table + line;
 }
 

@@ -13,7 +13,9 @@ namespace poreshock {
 
 namespace {
 
-bool due(std::int64_t beats, std::int64_t beat) { return beats > 0 && beat % beats == 0; }
+bool due(std::int64_t beats, std::int64_t beat) {
+  return beats > 0 && beat % beats == 0;
+}
 
 /// Number of the record at this time: the beat, or the one after the last beat when the run ends
 /// between two.
@@ -38,9 +40,8 @@ std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim) {
 
 void append_counts(const PixelCounts& c, MorphologyRecord& record) {
   record.pixels = c.pixels;
-  record.counts = {{"F", c.F},         {"E", c.E},           {"V", c.V},
-                   {"V4", c.V4},       {"D", c.D},           {"B_int", c.B_int},
-                   {"B_void", c.B_void}, {"B_frame", c.B_frame}};
+  record.counts = {{"F", c.F}, {"E", c.E},         {"V", c.V},           {"V4", c.V4},
+                   {"D", c.D}, {"B_int", c.B_int}, {"B_void", c.B_void}, {"B_frame", c.B_frame}};
   const Minkowski m = functionals(c);
   record.functionals = {{"A", m.A}, {"L", m.L}, {"chi", m.chi}, {"chi4", m.chi4}};
 }
@@ -48,9 +49,9 @@ void append_counts(const PixelCounts& c, MorphologyRecord& record) {
 // The vertex count holds the name V, so the volume functional is spelt out.
 void append_counts(const VoxelCounts& c, MorphologyRecord& record) {
   record.pixels = c.pixels;
-  record.counts = {{"C", c.C},   {"F", c.F},         {"E", c.E},           {"V", c.V},
-                   {"E4", c.E4}, {"V8", c.V8},       {"S_int", c.S_int},   {"S_void", c.S_void},
-                   {"S_frame", c.S_frame}};
+  record.counts = {{"C", c.C},         {"F", c.F},           {"E", c.E},
+                   {"V", c.V},         {"E4", c.E4},         {"V8", c.V8},
+                   {"S_int", c.S_int}, {"S_void", c.S_void}, {"S_frame", c.S_frame}};
   const Minkowski3 m = functionals(c);
   record.functionals = {{"volume", m.V}, {"S", m.S}, {"M", m.M}, {"chi", m.chi}, {"chi6", m.chi6}};
 }
@@ -95,14 +96,15 @@ void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 
 template <int Dim>
 SnapshotInput<Dim> snapshot_input(const Simulation<Dim>& sim) {
-  return {sim.scene,      sim.scene_text,  sim.materials,  sim.particles, record_number(sim),
-          sim.clock.step, sim.clock.time, grid_shift(sim)};
+  return {sim.scene,          sim.scene_text, sim.materials,  sim.particles,
+          record_number(sim), sim.clock.step, sim.clock.time, grid_shift(sim)};
 }
 
 template <int Dim>
 void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::history);
-  HistoryRow row = take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
+  HistoryRow row =
+      take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
   row.time = sim.clock.time;
   row.step = sim.clock.step;
   row.dt = sim.clock.allowed;
@@ -144,7 +146,8 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   if (recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat))) {
     write_morphology_record(sim, recorder);
   }
-  if (all || due(beats_of(output.snapshot, output.beat), beat)) write_snapshot_record(sim, recorder);
+  if (all || due(beats_of(output.snapshot, output.beat), beat))
+    write_snapshot_record(sim, recorder);
   const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
   if (all || due(history, beat)) write_history(sim, recorder);
   if (last) collect_morphology(recorder.folder, sim.communicator);

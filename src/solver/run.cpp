@@ -136,8 +136,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
                                   : start<Dim>(scene, communicator);
   // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
   prepare_output_folder(options.folder, options.force, options.continues, communicator);
-  on_rank_zero(communicator,
-               [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
+  on_rank_zero(communicator, [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
   if (restarted) remove_records_from(options.folder, sim.clock.beat + 1, communicator);
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, sim);
   progress.first_step = sim.clock.step;

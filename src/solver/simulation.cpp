@@ -118,8 +118,8 @@ RunState run_state(const Simulation<Dim>& sim) {
   double limit = sim.clock.limit;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MIN, sim.communicator),
             "MPI_Allreduce of the time step");
-  for (const double x : {limit, sim.clock.first_limit, sim.ledger.energy_quantum,
-                         sim.ledger.momentum_quantum}) {
+  for (const double x :
+       {limit, sim.clock.first_limit, sim.ledger.energy_quantum, sim.ledger.momentum_quantum}) {
     state.integers.push_back(std::bit_cast<std::int64_t>(x));
   }
   const std::vector<std::int64_t> ledger = save(sim.ledger, sim.communicator);

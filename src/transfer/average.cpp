@@ -89,7 +89,8 @@ void dilatation_sweeps(const Particles<Dim>& particles, const CellOrder& cells, 
           for (int a = 0; a < Dim; ++a) {
             double slope = 1.0;
             for (int b = 0; b < Dim; ++b) {
-              const int i = b == 0 ? n % w : (b == 1 && Dim == 3 ? (n / w) % w : n / (Dim == 3 ? w * w : w));
+              const int i =
+                  b == 0 ? n % w : (b == 1 && Dim == 3 ? (n / w) % w : n / (Dim == 3 ? w * w : w));
               slope *= a == b ? s.axis[b].slope[i] : s.axis[b].value[i];
             }
             end += slope * nodes[n][Lane::end_velocity + a];

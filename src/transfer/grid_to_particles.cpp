@@ -95,7 +95,8 @@ inline double apply_flip(const Moments<Dim>& m, double damped, std::uint32_t p,
     increment2 += increment * increment;
     noise2 += noise * noise;
     product += start * end;
-    particles.velocity[a][p] = (1.0 - damped) * (particles.velocity[a][p] + increment) + damped * end;
+    particles.velocity[a][p] =
+        (1.0 - damped) * (particles.velocity[a][p] + increment) + damped * end;
   }
   return m.value[Lane::kinetic] - 0.5 * increment2 +
          damped * ((1.0 - 0.5 * damped) * noise2 - product);

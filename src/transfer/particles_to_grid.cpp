@@ -140,8 +140,7 @@ inline void accumulate(const Contribution<3>& c, const Stencil<3, Spline>& s, La
           sum += dx * c.linear[0];
           sum[kinetic] += quadratic + dx * (cross + dx * c.quadratic[0][0]);
         }
-        sums[(k * w + j) * w + i] += (s.axis[0].value[i] * yz) * sum +
-                                     s.axis[0].value[i] * slope +
+        sums[(k * w + j) * w + i] += (s.axis[0].value[i] * yz) * sum + s.axis[0].value[i] * slope +
                                      (s.axis[0].slope[i] * yz) * c.force[0];
       }
     }
@@ -155,9 +154,8 @@ void sweep(const Particles<Dim>& particles, const CellOrder& cells, const StepDa
   scatter<Dim, Spline>(
       particles, cells,
       [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
-        const double pressure = averaging
-                                    ? step.averaged_pressure[p]
-                                    : particles.pressure[p] + particles.viscous_pressure[p];
+        const double pressure = averaging ? step.averaged_pressure[p]
+                                          : particles.pressure[p] + particles.viscous_pressure[p];
         accumulate<Spline, Affine>(contribution<Dim, Affine>(particles, p, pressure, cell), stencil,
                                    sums);
       },

@@ -90,7 +90,8 @@ TEST(Conservation, MomentumChangesByTheWallImpulseOnly) {
   const HistoryRow before = stock(sim);
   advance_to(400, 0, sim);
   const HistoryRow after = stock(sim);
-  std::vector<Int128> impulse = {sim.ledger.nodes.wall_impulse[0], sim.ledger.nodes.wall_impulse[1]};
+  std::vector<Int128> impulse = {sim.ledger.nodes.wall_impulse[0],
+                                 sim.ledger.nodes.wall_impulse[1]};
   sum(impulse, MPI_COMM_WORLD);
   const double scale = std::abs(before.momentum[1]);
   for (std::size_t a = 0; a < 2; ++a) {
@@ -107,31 +108,32 @@ TEST(Symmetry, ScaledByTwoGivesTheSameBits) {
     advance_to(steps, 0, sim);
     std::vector<std::pair<std::int64_t, std::pair<double, double>>> values;
     for (std::size_t p = 0; p < sim.particles.size(); ++p) {
-      values.push_back({sim.particles.id[p],
-                        {sim.particles.pressure[p], sim.particles.internal_energy[p]}});
+      values.push_back(
+          {sim.particles.id[p], {sim.particles.pressure[p], sim.particles.internal_energy[p]}});
     }
     std::sort(values.begin(), values.end());
     return values;
   };
   const auto small = fields({"output.beat=4e-9"}, 200);
-  const auto large = fields({"domain.size=[0.4e-3, 0.88e-3]", "domain.cell=20e-6",
-                             "sample.height=0.8e-3", "sample.void_radius=60e-6", "time.end=2e-6",
-                             "output.beat=8e-9"},
-                            200);
+  const auto large =
+      fields({"domain.size=[0.4e-3, 0.88e-3]", "domain.cell=20e-6", "sample.height=0.8e-3",
+              "sample.void_radius=60e-6", "time.end=2e-6", "output.beat=8e-9"},
+             200);
   EXPECT_TRUE(small == large);
 }
 
 TEST(Symmetry, UniformTranslationStaysQuiet) {
   // A block that flies through the grid feels nothing.
-  const Scene scene = scene_of(porous_text(), {"boundary.low=free", "domain.size=[0.2e-3, 1.2e-3]",
-                                               "loading.velocity=0.0",
-                                               "loading.frame=[700.0, 1100.0]", "time.end=6e-7"});
+  const Scene scene = scene_of(
+      porous_text(), {"boundary.low=free", "domain.size=[0.2e-3, 1.2e-3]", "loading.velocity=0.0",
+                      "loading.frame=[700.0, 1100.0]", "time.end=6e-7"});
   Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
   advance_to(1000000, 0, sim);
   double stress = 0.0, error = 0.0;
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     stress = std::max(stress, std::abs(sim.particles.pressure[p]));
-    for (const auto& column : sim.particles.deviator) stress = std::max(stress, std::abs(column[p]));
+    for (const auto& column : sim.particles.deviator)
+      stress = std::max(stress, std::abs(column[p]));
     error = std::max({error, std::abs(sim.particles.velocity[0][p] - 700.0),
                       std::abs(sim.particles.velocity[1][p] - 1100.0)});
   }
@@ -148,8 +150,8 @@ TEST(Symmetry, MovingWallEqualsFallingBlock) {
     return row.internal;
   };
   const double falling = stress_of({});
-  const double pushed = stress_of({"loading.velocity=0.0",
-                                   "boundary.low={kind='wall', velocity=1100.0}"});
+  const double pushed =
+      stress_of({"loading.velocity=0.0", "boundary.low={kind='wall', velocity=1100.0}"});
   EXPECT_NEAR(pushed / falling, 1.0, 1e-9);
 }
 

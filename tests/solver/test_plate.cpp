@@ -36,8 +36,8 @@ Plateau plateau(const Simulation<Dim>& sim, double front) {
 }
 
 std::string plate_text(const std::string& size, const std::string& height) {
-  return "[domain]\nsize = " + size + "\ncell = 20e-6\nperiodic = true\n" + "[sample]\nheight = " +
-         height + R"(
+  return "[domain]\nsize = " + size + "\ncell = 20e-6\nperiodic = true\n" +
+         "[sample]\nheight = " + height + R"(
 kind = "solid"
 [boundary]
 low = "wall"

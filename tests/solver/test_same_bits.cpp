@@ -37,17 +37,15 @@ TEST(SameBits, CubicApicOnAllRanks) {
 }
 
 TEST(SameBits, QuadraticApicAveragedPaperMode) {
-  expect_same_on_all_ranks<2>(
-      scene_of(porous_text(),
-               {"transfer.shape=quadratic", "transfer.averaging=1.0", "thermal=paper"}),
-      steps);
+  expect_same_on_all_ranks<2>(scene_of(porous_text(), {"transfer.shape=quadratic",
+                                                       "transfer.averaging=1.0", "thermal=paper"}),
+                              steps);
 }
 
 TEST(SameBits, CubicFlipDampedHalfAveragedKinematic) {
   expect_same_on_all_ranks<2>(
-      scene_of(porous_text(),
-               {"transfer.velocity=flip", "transfer.damping=1e8", "transfer.averaging=0.5",
-                "material.0.kinematic_share=0.5"}),
+      scene_of(porous_text(), {"transfer.velocity=flip", "transfer.damping=1e8",
+                               "transfer.averaging=0.5", "material.0.kinematic_share=0.5"}),
       steps);
 }
 
@@ -58,16 +56,16 @@ TEST(SameBits, WallsAllAroundAndMovingPiston) {
 }
 
 TEST(SameBits, OpenSidesAndLeavingParticles) {
-  Scene scene = scene_of(porous_text(), {"domain.periodic=false", "boundary.low=free",
-                                         "loading.velocity=3000.0"});
+  Scene scene = scene_of(porous_text(),
+                         {"domain.periodic=false", "boundary.low=free", "loading.velocity=3000.0"});
   expect_same_on_all_ranks<2>(scene, steps);
 }
 
 TEST(SameBits, SlabsAsThinAsAllowed) {
   // 15 rows of nodes on 4 ranks: 3 + 3 + 3 + 6, the least that the cubic spline allows.
-  const Scene scene = scene_of(porous_text(), {"domain.size=[0.2e-3, 0.12e-3]",
-                                               "sample.height=0.11e-3", "sample.porosity=0.1",
-                                               "sample.void_radius=20e-6"});
+  const Scene scene =
+      scene_of(porous_text(), {"domain.size=[0.2e-3, 0.12e-3]", "sample.height=0.11e-3",
+                               "sample.porosity=0.1", "sample.void_radius=20e-6"});
   if (size(MPI_COMM_WORLD) == 4) {
     on_ranks(4, [&](MPI_Comm part) {
       const Simulation<2> sim = start<2>(scene, part);
@@ -105,7 +103,9 @@ end = 1e-6
 )") + aluminium_text;
 }
 
-TEST(SameBits, PorousBlockIn3D) { expect_same_on_all_ranks<3>(scene_of(porous_3d_text()), 60); }
+TEST(SameBits, PorousBlockIn3D) {
+  expect_same_on_all_ranks<3>(scene_of(porous_3d_text()), 60);
+}
 
 /// Writes a checkpoint on `writers` ranks at `middle`, continues on `readers`.
 template <int Dim>

@@ -46,7 +46,8 @@ void_radius = 30e-6
 velocity = 1100
 [time]
 end = 1e-6
-)") + aluminium_text + more;
+)") + aluminium_text +
+         more;
 }
 
 inline Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -58,7 +59,8 @@ template <int Dim>
 void advance_to(std::int64_t step, std::int64_t rebalance_every, Simulation<Dim>& sim) {
   while (sim.clock.step < step && sim.clock.time < sim.scene.time.end) {
     const StepAgreement agreement = agree_on_step(false, sim.clock, sim.communicator);
-    if (agreement.bad_state) throw StateError("state gone bad at " + std::to_string(sim.clock.step));
+    if (agreement.bad_state)
+      throw StateError("state gone bad at " + std::to_string(sim.clock.step));
     const double dt = next_time_step(sim.scene, sim.clock);
     advance(sim, dt);
     tick(sim.scene, dt, sim.clock);

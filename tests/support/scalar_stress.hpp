@@ -93,8 +93,7 @@ inline double return_to_yield(const StressLaw& law, const Eigen::Matrix3d& start
 inline double stored_energy(const StressLaw& law, const PointState& p) {
   const Solid& m = law.solid;
   const double kinematic = m.kinematic_share * m.hardening;
-  double stored =
-      m.shear > 0.0 ? p.deviator.squaredNorm() / (4.0 * m.shear) / p.density : 0.0;
+  double stored = m.shear > 0.0 ? p.deviator.squaredNorm() / (4.0 * m.shear) / p.density : 0.0;
   if (!law.heat_is_all_work && kinematic > 0.0) {
     stored += 3.0 * p.back_stress.squaredNorm() / (4.0 * kinematic) / p.density;
   }

@@ -22,8 +22,8 @@ struct Command {
   std::string file;                    ///< scene, or the file to describe
   std::vector<std::string> overrides;  ///< --set table.key=value
   std::string output;
-  std::string restart;                 ///< file or "latest"
-  double wall_limit = 0.0;             ///< s
+  std::string restart;      ///< file or "latest"
+  double wall_limit = 0.0;  ///< s
   bool force = false;
   bool quiet = false;
 };

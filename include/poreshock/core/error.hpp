@@ -1,5 +1,6 @@
 #pragma once
-// Errors that reach the user. Exit codes: 2 bad input, 3 state gone bad, 4 library or system failure.
+// Errors that reach the user. Exit codes: 2 bad input, 3 state gone bad, 4 library or system
+// failure.
 
 #include <stdexcept>
 #include <string>

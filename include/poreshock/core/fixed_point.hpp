@@ -1,6 +1,6 @@
 #pragma once
-// Sums that do not depend on the order of their terms: multiples of a power-of-two quantum, added as
-// 128-bit integers.
+// Sums that do not depend on the order of their terms: multiples of a power-of-two quantum, added
+// as 128-bit integers.
 
 #include <mpi.h>
 

@@ -27,7 +27,8 @@ int size(MPI_Comm communicator);
 
 /// Throws SystemError with the text of a PETSc error code when it is not zero. Not collective.
 void check_petsc(int code, const char* what);
-/// Throws SystemError with the text of an MPI error code when it is not MPI_SUCCESS. Not collective.
+/// Throws SystemError with the text of an MPI error code when it is not MPI_SUCCESS. Not
+/// collective.
 void check_mpi(int code, const char* what);
 
 /// Largest value over all ranks. Collective.

@@ -1,5 +1,6 @@
 #pragma once
-// Timing of named phases of a run: a PETSc log event (so that -log_view shows it) and our own table.
+// Timing of named phases of a run: a PETSc log event (so that -log_view shows it) and our own
+// table.
 
 #include <petscsys.h>
 

@@ -22,12 +22,12 @@ namespace poreshock {
 /// Shape of the grid, the same on every rank.
 struct GridShape {
   int dimension = 2;
-  int stencil = 4;                       ///< nodes per axis of a stencil: 3 quadratic, 4 cubic
-  double cell = 0.0;                     ///< m
-  std::array<int, 3> nodes{1, 1, 1};     ///< per axis: cells + 3
-  std::array<bool, 2> periodic{};        ///< lateral axes
-  int row_size = 0;                      ///< nodes of one row
-  int rows = 0;                          ///< node rows along the shock axis
+  int stencil = 4;                    ///< nodes per axis of a stencil: 3 quadratic, 4 cubic
+  double cell = 0.0;                  ///< m
+  std::array<int, 3> nodes{1, 1, 1};  ///< per axis: cells + 3
+  std::array<bool, 2> periodic{};     ///< lateral axes
+  int row_size = 0;                   ///< nodes of one row
+  int rows = 0;                       ///< node rows along the shock axis
 };
 
 GridShape make_grid_shape(const Scene& scene);
@@ -57,7 +57,9 @@ class SlabGrid {
   int owner(int row) const;
 
   /// Nodes of one row, row_size entries; row in [first_row, node_end).
-  Lanes* row(int row) { return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size; }
+  Lanes* row(int row) {
+    return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size;
+  }
   const Lanes* row(int row) const {
     return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size;
   }
@@ -65,8 +67,8 @@ class SlabGrid {
   /// Sets all nodal sums and the seam to +0. Not collective.
   void clear();
 
-  /// Adds the sums of the particles of one row to its `stencil` node rows, or keeps them apart in the
-  /// seam where another rank shares the nodes. Call once per row, in row order. Not collective.
+  /// Adds the sums of the particles of one row to its `stencil` node rows, or keeps them apart in
+  /// the seam where another rank shares the nodes. Call once per row, in row order. Not collective.
   void add_row(int row, const Lanes* buffer);
 
   /// Completes the nodal sums: one exchange of the seam, sums in row order, periodic sides folded.
@@ -93,7 +95,7 @@ class SlabGrid {
   MPI_Comm communicator_;
   int first_ = 0, last_ = 0, node_end_ = 0;
   bool has_below_ = false, has_above_ = false;
-  int planes_ = 0;          ///< seam planes per direction
+  int planes_ = 0;  ///< seam planes per direction
   DM node_dm_ = nullptr, seam_dm_ = nullptr;
   Vec node_vector_ = nullptr, seam_vector_ = nullptr;
   Lanes* nodes_ = nullptr;  ///< node row first_

@@ -19,19 +19,19 @@ enum class PlasticHeat { work, dissipation };
 struct MaterialParameters {
   std::string name;
   std::string model = "j2_mie_gruneisen";
-  double density = 0.0;          ///< kg/m^3
-  double young = 0.0;            ///< Pa; with poisson it gives the shear modulus only
+  double density = 0.0;  ///< kg/m^3
+  double young = 0.0;    ///< Pa; with poisson it gives the shear modulus only
   double poisson = 0.0;
   double yield = 0.0;            ///< Pa
   double hardening = 0.0;        ///< Pa
   double kinematic_share = 0.0;  ///< 0 isotropic ... 1 kinematic
   PlasticHeat plastic_heat = PlasticHeat::work;
-  double c0 = 0.0;               ///< m/s, bulk sound speed
-  double lambda = 0.0;           ///< slope of Us = c0 + lambda Up
-  double gamma = 0.0;            ///< constant Grueneisen coefficient
-  double cv = 0.0;               ///< J/(kg K)
-  double conductivity = 0.0;     ///< W/(m K)
-  double T0 = 300.0;             ///< K
+  double c0 = 0.0;            ///< m/s, bulk sound speed
+  double lambda = 0.0;        ///< slope of Us = c0 + lambda Up
+  double gamma = 0.0;         ///< constant Grueneisen coefficient
+  double cv = 0.0;            ///< J/(kg K)
+  double conductivity = 0.0;  ///< W/(m K)
+  double T0 = 300.0;          ///< K
 
   bool operator==(const MaterialParameters&) const = default;
 };
@@ -78,8 +78,8 @@ struct ThermalState {
   double back_stress_square = 0.0;  ///< Pa^2
 };
 
-/// Temperature, K. paper: T_r(V) + W_p/c_v (eqs 6, 7); conserving: T_r(V) + (E - E_r(V))/c_v with the
-/// elastic deviatoric energy taken off E. Not clamped.
+/// Temperature, K. paper: T_r(V) + W_p/c_v (eqs 6, 7); conserving: T_r(V) + (E - E_r(V))/c_v with
+/// the elastic deviatoric energy taken off E. Not clamped.
 double temperature(const Material& material, Thermal thermal, const ThermalState& state);
 
 /// Longitudinal sound speed of the undisturbed material, m/s.

@@ -1,7 +1,7 @@
 #pragma once
-// Kinematics of one step from the incremental deformation gradient dF = I + dt grad v: volume ratio,
-// rotation and logarithmic strain. Rational functions and square roots only, so that the bits do not
-// depend on a mathematics library or on how a loop was vectorised.
+// Kinematics of one step from the incremental deformation gradient dF = I + dt grad v: volume
+// ratio, rotation and logarithmic strain. Rational functions and square roots only, so that the
+// bits do not depend on a mathematics library or on how a loop was vectorised.
 
 #include <array>
 #include <cmath>
@@ -19,7 +19,9 @@ struct DeformationIncrement {
 };
 
 /// artanh(z)/z as a function of z^2: Pade approximant, relative error 0.023 z^6.
-inline double artanh_ratio(double z2) { return (15.0 - 4.0 * z2) / (15.0 - 9.0 * z2); }
+inline double artanh_ratio(double z2) {
+  return (15.0 - 4.0 * z2) / (15.0 - 9.0 * z2);
+}
 
 /// Inverse of a symmetric 3 x 3 matrix (xx yy zz xy yz zx).
 inline SymmetricTensor<3> inverse(const SymmetricTensor<3>& a) {
@@ -27,12 +29,8 @@ inline SymmetricTensor<3> inverse(const SymmetricTensor<3>& a) {
   const double xy = a[4] * a[5] - a[3] * a[2];
   const double zx = a[3] * a[4] - a[1] * a[5];
   const double scale = 1.0 / ((a[0] * xx + a[3] * xy) + a[5] * zx);
-  return {xx * scale,
-          (a[0] * a[2] - a[5] * a[5]) * scale,
-          (a[0] * a[1] - a[3] * a[3]) * scale,
-          xy * scale,
-          (a[3] * a[5] - a[0] * a[4]) * scale,
-          zx * scale};
+  return {xx * scale, (a[0] * a[2] - a[5] * a[5]) * scale, (a[0] * a[1] - a[3] * a[3]) * scale,
+          xy * scale, (a[3] * a[5] - a[0] * a[4]) * scale, zx * scale};
 }
 
 /// Product of two symmetric 3 x 3 matrices that commute (so that it is symmetric).

@@ -13,8 +13,8 @@ struct CellOrder {
   std::vector<std::uint32_t> order;  ///< indices into the particle columns
 };
 
-/// Sorts particles by (cell, grain, id). Counting sort, then insertion within a cell; cheap when the
-/// storage is nearly sorted. Not collective.
+/// Sorts particles by (cell, grain, id). Counting sort, then insertion within a cell; cheap when
+/// the storage is nearly sorted. Not collective.
 void sort_by_cell(const std::vector<std::uint32_t>& cell, std::size_t cells,
                   const std::vector<std::int32_t>& grain, const std::vector<std::int64_t>& id,
                   CellOrder& result);

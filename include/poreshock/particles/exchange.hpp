@@ -17,7 +17,8 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
                   MPI_Comm communicator);
 
 /// Sends the particles at `down` and `up` (ascending indices) to the ranks below and above, drops
-/// those at `gone`, and appends what arrives. Holes are filled from the end. Collective (neighbours).
+/// those at `gone`, and appends what arrives. Holes are filled from the end. Collective
+/// (neighbours).
 template <int Dim>
 void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
                               const std::vector<std::uint32_t>& up,

@@ -14,15 +14,15 @@ namespace poreshock {
 
 /// Which optional columns a scene needs; columns it does not need stay empty.
 struct ParticleOptions {
-  bool affine = true;       ///< APIC
-  bool back_stress = false; ///< kinematic hardening
+  bool affine = true;        ///< APIC
+  bool back_stress = false;  ///< kinematic hardening
 };
 
 /// State of the particles of one rank. All columns have the same length, but those not in use: 0.
 template <int Dim>
 struct Particles {
   ParticleOptions options;
-  std::vector<std::int64_t> id;                       ///< from the sample, unique, never changes
+  std::vector<std::int64_t> id;  ///< from the sample, unique, never changes
   std::vector<std::int32_t> grain;
   std::vector<std::int32_t> material;                 ///< index into the scene's materials
   std::array<std::vector<double>, Dim> position;      ///< m, relative to the grid origin
@@ -30,12 +30,12 @@ struct Particles {
   std::array<std::vector<double>, Dim * Dim> affine;  ///< 1/s, row major, APIC velocity gradient
   std::vector<double> mass;                           ///< kg (per metre of depth in plane strain)
   std::vector<double> density;                        ///< kg/m^3
-  std::vector<double> pressure;                       ///< Pa, equation of state, compression positive
-  std::vector<double> viscous_pressure;               ///< Pa, artificial viscosity q >= 0
-  std::vector<double> internal_energy;                ///< J/kg
+  std::vector<double> pressure;          ///< Pa, equation of state, compression positive
+  std::vector<double> viscous_pressure;  ///< Pa, artificial viscosity q >= 0
+  std::vector<double> internal_energy;   ///< J/kg
   std::vector<double> plastic_strain;
-  std::vector<double> plastic_work;                   ///< J/kg, the part that is heat
-  std::array<std::vector<double>, symmetric_size<Dim>> deviator;     ///< Pa, tension positive
+  std::vector<double> plastic_work;                               ///< J/kg, the part that is heat
+  std::array<std::vector<double>, symmetric_size<Dim>> deviator;  ///< Pa, tension positive
   std::array<std::vector<double>, symmetric_size<Dim>> back_stress;  ///< Pa
 
   std::size_t size() const { return id.size(); }
@@ -69,7 +69,8 @@ void for_each_column(ParticlesType& particles, Visitor&& visit) {
 template <int Dim>
 void resize(Particles<Dim>& particles, std::size_t count);
 
-/// Reorders all columns: new particle k is the old particle order[k]. A shorter order drops the rest.
+/// Reorders all columns: new particle k is the old particle order[k]. A shorter order drops the
+/// rest.
 template <int Dim>
 void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles);
 
@@ -77,7 +78,8 @@ void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles)
 template <int Dim>
 std::size_t bytes_per_particle(const Particles<Dim>& particles);
 
-/// Appends particles of `source` at `indices` to a byte buffer, column after column. Not collective.
+/// Appends particles of `source` at `indices` to a byte buffer, column after column. Not
+/// collective.
 template <int Dim>
 void pack(const Particles<Dim>& source, const std::vector<std::uint32_t>& indices,
           std::vector<std::byte>& buffer);

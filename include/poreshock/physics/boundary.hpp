@@ -7,8 +7,8 @@
 namespace poreshock {
 
 /// Projects the end velocities (MotionLane) near walls and symmetry planes onto fields that are
-/// mirror symmetric about them, by the mass-weighted mean of each set of mirror nodes. A wall does so
-/// only where that pushes the material; a symmetry plane always. Planes move with grid_velocity.
+/// mirror symmetric about them, by the mass-weighted mean of each set of mirror nodes. A wall does
+/// so only where that pushes the material; a symmetry plane always. Planes move with grid_velocity.
 /// Each set keeps the kinetic energy the projection takes, as heat per mass; work and impulse go to
 /// the ledger (owned nodes). Not collective.
 template <int Dim>

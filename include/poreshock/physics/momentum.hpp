@@ -6,9 +6,10 @@
 
 namespace poreshock {
 
-/// From nodal sums (SumLane) to motion (MotionLane): v = p/m, v' = v + dt (f/m + b) (paper eq 13), and
-/// for affine particles the heat per mass that their projection onto the grid loses. Empty nodes stay
-/// zero. Body-force work and filter heat of owned nodes are added to the ledger. Not collective.
+/// From nodal sums (SumLane) to motion (MotionLane): v = p/m, v' = v + dt (f/m + b) (paper eq 13),
+/// and for affine particles the heat per mass that their projection onto the grid loses. Empty
+/// nodes stay zero. Body-force work and filter heat of owned nodes are added to the ledger. Not
+/// collective.
 template <int Dim>
 void integrate_momentum(const Vector<Dim>& body_force, bool affine, double dt, SlabGrid& grid,
                         NodeLedger& ledger);

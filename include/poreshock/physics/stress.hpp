@@ -15,7 +15,7 @@ struct StressSettings {
   Thermal thermal = Thermal::conserving;
   Viscosity viscosity;
   bool averaging = false;
-  double cell = 0.0;               ///< m, length of the artificial viscosity
+  double cell = 0.0;  ///< m, length of the artificial viscosity
   double cfl = 0.35;
   Vector<Dim> grid_velocity = Vector<Dim>::Zero();
   double inverse_energy_quantum = 1.0;
@@ -23,16 +23,16 @@ struct StressSettings {
 
 /// What the update reports about this rank's particles.
 struct StressReport {
-  double dt_limit = 0.0;             ///< s, largest stable next step; cfl included
-  std::int64_t bad = 0;              ///< particles with a state that is not finite or inverted
-  std::int64_t compression_guard = 0;///< particles beyond the guard of the reference curve
-  std::int64_t sound_speed_guard = 0;///< particles whose sound speed had to be floored
-  Int128 viscous_heat = 0;           ///< quanta
+  double dt_limit = 0.0;               ///< s, largest stable next step; cfl included
+  std::int64_t bad = 0;                ///< particles with a state that is not finite or inverted
+  std::int64_t compression_guard = 0;  ///< particles beyond the guard of the reference curve
+  std::int64_t sound_speed_guard = 0;  ///< particles whose sound speed had to be floored
+  Int128 viscous_heat = 0;             ///< quanta
 };
 
-/// Advances the state over dt (numerics: incremental polar decomposition, radial return, energy from
-/// the grid's stress power with the stress of the start of the step, so that the sum of kinetic and
-/// internal energy closes). Not collective.
+/// Advances the state over dt (numerics: incremental polar decomposition, radial return, energy
+/// from the grid's stress power with the stress of the start of the step, so that the sum of
+/// kinetic and internal energy closes). Not collective.
 template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                    const StepData<Dim>& step, double dt, Particles<Dim>& particles,

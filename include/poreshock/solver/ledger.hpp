@@ -23,21 +23,21 @@ struct Ledger {
   double momentum_quantum = 1.0;  ///< kg m/s
   NodeLedger nodes;
   Int128 viscous_heat = 0;
-  Int128 transfer_heat = 0;       ///< filter heat of grid to particles
+  Int128 transfer_heat = 0;  ///< filter heat of grid to particles
   Int128 escaped_energy = 0;
   std::array<Int128, 3> escaped_momentum{};
   std::int64_t escaped_particles = 0;
   Guards guards;
 };
 
-/// Quanta from the heaviest particle and the velocities of the scene: fine enough that rounding stays
-/// below 1e-13 of the total, coarse enough that no sum overflows. Collective.
+/// Quanta from the heaviest particle and the velocities of the scene: fine enough that rounding
+/// stays below 1e-13 of the total, coarse enough that no sum overflows. Collective.
 template <int Dim>
 Ledger make_ledger(const Scene& scene, const std::vector<Material>& materials,
                    const Particles<Dim>& particles, MPI_Comm communicator);
 
-/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an affine
-/// particle is (|v|^2 + inertia |C|^2) / 2. Zero without APIC.
+/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an
+/// affine particle is (|v|^2 + inertia |C|^2) / 2. Zero without APIC.
 double affine_inertia(const Transfer& transfer, double cell);
 
 /// Totals of the run for one row of the history; time, step and dt are left alone. Collective.

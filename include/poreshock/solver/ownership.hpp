@@ -16,8 +16,9 @@ void sort_particles(Simulation<Dim>& sim);
 template <int Dim>
 void migrate(Simulation<Dim>& sim);
 
-/// Cuts the rows anew by their particles and moves the particles to their ranks, from anywhere. With
-/// `least_gain` the cut stays unless the heaviest slab becomes lighter by that share. Collective.
+/// Cuts the rows anew by their particles and moves the particles to their ranks, from anywhere.
+/// With `least_gain` the cut stays unless the heaviest slab becomes lighter by that share.
+/// Collective.
 template <int Dim>
 void rebalance(double least_gain, Simulation<Dim>& sim);
 

@@ -19,9 +19,9 @@ struct Progress {
   std::int64_t particle_steps = 0;      ///< of this rank since the start
   std::int64_t row_particle_steps = 0;  ///< at the last row
   std::int64_t first_step = 0;
-  double row_communication = 0.0;       ///< s, at the last row
-  double row_compute = 0.0;             ///< s, at the last row
-  double row_time = 0.0;                ///< s of simulated time, at the last row
+  double row_communication = 0.0;  ///< s, at the last row
+  double row_compute = 0.0;        ///< s, at the last row
+  double row_time = 0.0;           ///< s of simulated time, at the last row
 };
 
 /// Line with the names of the columns.
@@ -32,8 +32,9 @@ struct EnergyStatus {
   double kinetic = 0.0, internal = 0.0, drift = 0.0;  ///< drift relative to the first total
 };
 
-/// One row of at most 100 columns: step, time, dt, energies, drift, million particle-steps per second
-/// and core, share of communication, imbalance, time to go. Collective; the same text on every rank.
+/// One row of at most 100 columns: step, time, dt, energies, drift, million particle-steps per
+/// second and core, share of communication, imbalance, time to go. Collective; the same text on
+/// every rank.
 std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
                          const PhaseTable& phases, Progress& progress, MPI_Comm communicator);
 

@@ -18,7 +18,8 @@
 
 namespace poreshock {
 
-/// Everything a run needs between two steps. The grids are scratch: nothing on them survives a step.
+/// Everything a run needs between two steps. The grids are scratch: nothing on them survives a
+/// step.
 template <int Dim>
 struct Simulation {
   Scene scene;

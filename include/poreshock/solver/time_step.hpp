@@ -12,10 +12,10 @@ namespace poreshock {
 /// Time of a run. Steps land exactly on multiples of the beat, and on the end.
 struct Clock {
   std::int64_t step = 0;
-  double time = 0.0;      ///< s
-  std::int64_t beat = 0;  ///< last beat landed on
-  double allowed = 0.0;   ///< s, step last allowed, before it was fitted to the beat
-  double limit = 0.0;     ///< s, stable step; this rank's until agree_on_step, then the smallest
+  double time = 0.0;         ///< s
+  std::int64_t beat = 0;     ///< last beat landed on
+  double allowed = 0.0;      ///< s, step last allowed, before it was fitted to the beat
+  double limit = 0.0;        ///< s, stable step; this rank's until agree_on_step, then the smallest
   double first_limit = 0.0;  ///< s, stable step of the initial state
   std::int64_t bad = 0;      ///< particles of this rank with a state gone bad
   bool on_beat = true;       ///< the last step landed on a beat or the end

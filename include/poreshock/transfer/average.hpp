@@ -1,7 +1,7 @@
 #pragma once
-// Averaged dilatation: volume-weighted average to nodes and back. The operator is self-adjoint in the
-// volume-weighted product, so the averaged pressure in the force and the averaged dilatation in the
-// work are conjugate and the energy closes.
+// Averaged dilatation: volume-weighted average to nodes and back. The operator is self-adjoint in
+// the volume-weighted product, so the averaged pressure in the force and the averaged dilatation in
+// the work are conjugate and the energy closes.
 
 #include "poreshock/grid/slab_grid.hpp"
 #include "poreshock/particles/cell_order.hpp"

@@ -10,14 +10,16 @@
 namespace poreshock {
 
 /// Replaces the mass lane of every node by the kinetic term of the transfer's filter heat and fills
-/// the periodic images. `damped` is the share of velocity noise FLIP removes this step. Not collective.
+/// the periodic images. `damped` is the share of velocity noise FLIP removes this step. Not
+/// collective.
 template <int Dim>
 void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid);
 
-/// Updates velocity, affine velocity and position of every particle and sets step.gradient, step.rate
-/// and step.heat. Positions advance relative to the grid, which moves with grid_velocity. The filter
-/// heat of this sweep (J) is added to filter_heat in quanta. Source of the closures: FLIP and APIC
-/// kinetic energy balances, sum_p m_p v_p . dv_p = sum_i m_i v_i . dv_i. Not collective.
+/// Updates velocity, affine velocity and position of every particle and sets step.gradient,
+/// step.rate and step.heat. Positions advance relative to the grid, which moves with grid_velocity.
+/// The filter heat of this sweep (J) is added to filter_heat in quanta. Source of the closures:
+/// FLIP and APIC kinetic energy balances, sum_p m_p v_p . dv_p = sum_i m_i v_i . dv_i. Not
+/// collective.
 template <int Dim>
 void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, const Transfer& transfer,
                        const Vector<Dim>& grid_velocity, double dt, double inverse_quantum,

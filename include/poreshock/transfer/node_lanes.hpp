@@ -15,11 +15,11 @@ struct SumLane {
 /// Nodal motion, from integrate_momentum to grid_to_particles.
 template <int Dim>
 struct MotionLane {
-  static constexpr int end_velocity = 0;        ///< Dim numbers
-  static constexpr int start_velocity = Dim;    ///< Dim numbers
-  static constexpr int heat = 2 * Dim;          ///< J/kg
-  static constexpr int mass = 2 * Dim + 1;      ///< until prepare_gather
-  static constexpr int kinetic = 2 * Dim + 1;   ///< J/kg, after prepare_gather
+  static constexpr int end_velocity = 0;       ///< Dim numbers
+  static constexpr int start_velocity = Dim;   ///< Dim numbers
+  static constexpr int heat = 2 * Dim;         ///< J/kg
+  static constexpr int mass = 2 * Dim + 1;     ///< until prepare_gather
+  static constexpr int kinetic = 2 * Dim + 1;  ///< J/kg, after prepare_gather
 };
 
 /// Nodal averages (averaged dilatation).

@@ -8,9 +8,9 @@
 
 namespace poreshock {
 
-/// Sums SumLane of every node from the particles of this slab (paper eqs 10, 13, 14). With averaging
-/// the pressure in the force is step.averaged_pressure, else p + q. After it the grid awaits
-/// exchange(). Not collective.
+/// Sums SumLane of every node from the particles of this slab (paper eqs 10, 13, 14). With
+/// averaging the pressure in the force is step.averaged_pressure, else p + q. After it the grid
+/// awaits exchange(). Not collective.
 template <int Dim>
 void particles_to_grid(const Particles<Dim>& particles, const CellOrder& cells,
                        const Transfer& transfer, const StepData<Dim>& step, SlabGrid& grid);

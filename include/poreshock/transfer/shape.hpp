@@ -24,7 +24,8 @@ struct QuadraticSpline {
   static AxisWeights<3> weights(double s, int base) {
     const double f = s - static_cast<double>(base - 1);  // 0.5 ... 1.5
     const double a = 1.5 - f, b = f - 1.0, c = f - 0.5;
-    return {{0.5 * (a * a), 0.75 - b * b, 0.5 * (c * c)}, {-a, -2.0 * b, c}, {-f, 1.0 - f, 2.0 - f}};
+    return {
+        {0.5 * (a * a), 0.75 - b * b, 0.5 * (c * c)}, {-a, -2.0 * b, c}, {-f, 1.0 - f, 2.0 - f}};
   }
 };
 

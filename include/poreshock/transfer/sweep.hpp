@@ -19,8 +19,8 @@ struct Stencil {
 
 /// Number of nodes of a stencil.
 template <int Dim, class Spline>
-inline constexpr int stencil_nodes = Dim == 2 ? Spline::width * Spline::width
-                                              : Spline::width * Spline::width * Spline::width;
+inline constexpr int stencil_nodes =
+    Dim == 2 ? Spline::width* Spline::width : Spline::width* Spline::width* Spline::width;
 
 /// Lowest node of the stencil cell along every axis, from row and lateral index.
 template <int Dim>
@@ -55,8 +55,8 @@ inline std::ptrdiff_t node_offset(const GridShape& shape, int n) {
   }
 }
 
-/// Calls run(row, lateral, first, last) for every run of particles of one cell and one grain, rows in
-/// order, and row_end(row) after each row that has particles.
+/// Calls run(row, lateral, first, last) for every run of particles of one cell and one grain, rows
+/// in order, and row_end(row) after each row that has particles.
 template <int Dim, class Run, class RowEnd>
 void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const SlabGrid& grid,
                   Run&& run, RowEnd&& row_end) {
@@ -78,8 +78,9 @@ void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const
   }
 }
 
-/// Scatters to nodes: accumulate(p, stencil, sums) adds one particle to the sums of its stencil nodes;
-/// sums of a run start at +0 and are added to the row buffer, that to the grid. Not collective.
+/// Scatters to nodes: accumulate(p, stencil, sums) adds one particle to the sums of its stencil
+/// nodes; sums of a run start at +0 and are added to the row buffer, that to the grid. Not
+/// collective.
 template <int Dim, class Spline, class Accumulate>
 void scatter(const Particles<Dim>& particles, const CellOrder& cells, Accumulate&& accumulate,
              SlabGrid& grid) {
