@@ -33,23 +33,50 @@ Scene read_everywhere(const Command& command, MPI_Comm communicator) {
   return parse_scene(text, command.file);
 }
 
-/// On restart only the end, the output, the checkpoints and the morphology may differ.
-void require_same_physics(const Scene& now, const std::string& stored_text,
-                          const std::string& path) {
-  Scene stored = parse_scene(stored_text, path);
-  stored.title = now.title;
-  stored.time.end = now.time.end;
-  stored.time.max_steps = now.time.max_steps;
-  const double beat = stored.output.beat;
-  stored.output = now.output;
-  stored.output.beat = beat;
-  stored.checkpoint = now.checkpoint;
-  stored.morphology = now.morphology;
-  if (stored == now) return;
+/// Tables in which two scenes of one dimension differ physically.
+std::string differences(const Scene& a, const Scene& b) {
+  const std::pair<const char*, bool> tables[] = {{"thermal", a.thermal == b.thermal},
+                                                 {"domain", a.domain == b.domain},
+                                                 {"boundary", a.boundary == b.boundary},
+                                                 {"material", a.materials == b.materials},
+                                                 {"sample", a.sample == b.sample},
+                                                 {"body", a.bodies == b.bodies},
+                                                 {"void", a.voids == b.voids},
+                                                 {"loading", a.loading == b.loading},
+                                                 {"body_force", a.body_force == b.body_force},
+                                                 {"transfer", a.transfer == b.transfer},
+                                                 {"viscosity", a.viscosity == b.viscosity},
+                                                 {"time.cfl", a.time.cfl == b.time.cfl},
+                                                 {"output.beat", a.output.beat == b.output.beat}};
+  std::string names;
+  for (const auto& [name, same] : tables) {
+    if (!same) names.append(names.empty() ? "" : ", ").append(name);
+  }
+  return names;
+}
+
+/// On restart only the end, the output, the checkpoints and the morphology may differ; where the
+/// records of the checkpoint's folder go on, the morphology must measure the same as before.
+void require_same_run(const Scene& now, const CheckpointHeader& header, const std::string& path,
+                      bool continues) {
+  if (header.dimension != now.dimension) {
+    throw InputError(path + ": holds a " + std::to_string(header.dimension) +
+                     "-D run, the scene asks for " + std::to_string(now.dimension) + "-D");
+  }
+  const Scene stored = parse_scene(header.scene_text, path);
+  if (const std::string names = differences(now, stored); !names.empty()) {
+    throw InputError(path + " was written by a scene that differs in " + names +
+                     "; allowed are differences in the title, time.end, time.max_steps, output, "
+                     "checkpoint and morphology: restart with the scene.toml beside it, or start a "
+                     "new run");
+  }
+  const Morphology& a = now.morphology;
+  const Morphology& b = stored.morphology;
+  if (!continues || a.every == 0.0 || b.every == 0.0) return;
+  if (a.pixel == b.pixel && a.fields == b.fields) return;
   throw InputError(path +
-                   " was written by a scene that differs in more than its end time, output, "
-                   "checkpoint and morphology settings: restart with the scene.toml beside it, or "
-                   "start a new run");
+                   " was written with other morphology fields, thresholds or pixel, which cannot "
+                   "go on in the same folder: keep them, or choose another folder with --output");
 }
 
 /// A checkpoint from elsewhere does not make an existing folder ours to go on in.
@@ -70,6 +97,11 @@ std::string restart_path(const Command& command, MPI_Comm communicator) {
 }
 
 ExitCode execute_run(const Command& command, MPI_Comm communicator) {
+  // Written so that a NaN is refused too.
+  if (!(command.wall_limit >= 0.0)) {
+    throw InputError("--wall-time: found " + std::to_string(command.wall_limit) +
+                     ", allowed a number >= 0 (s), 0 = no limit");
+  }
   const Scene scene = read_everywhere(command, communicator);
   RunOptions options;
   options.folder = command.output.empty()
@@ -83,8 +115,8 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   if (!command.restart.empty()) {
     options.restart = restart_path(resolved, communicator);
     options.continues = lies_in(options.restart, options.folder);
-    const CheckpointHeader header = checkpoint_header(options.restart, communicator);
-    require_same_physics(scene, header.scene_text, options.restart);
+    require_same_run(scene, checkpoint_header(options.restart, communicator), options.restart,
+                     options.continues);
   }
   require_output_folder(options.folder, options.force, options.continues, communicator);
   catch_stop_signals();
@@ -101,8 +133,7 @@ void declare(Command& command, CLI::App& app) {
   run->add_option("--output", command.output, "output folder (default output/<scene>)");
   run->add_option("--restart", command.restart, "checkpoint file, or latest");
   run->add_option("--wall-time", command.wall_limit,
-                  "seconds after which to write a checkpoint and stop")
-      ->check(CLI::NonNegativeNumber);
+                  "seconds after which to write a checkpoint and stop");
   run->add_flag("--force", command.force, "replace our files in an existing output folder");
   run->add_flag("--quiet", command.quiet, "no progress rows");
   run->callback([&command] { command.kind = CommandKind::run; });

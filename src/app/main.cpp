@@ -14,6 +14,17 @@ int fail(poreshock::ExitCode code, const char* what, MPI_Comm communicator) {
   return static_cast<int>(code);
 }
 
+/// Names what stands where a command should; CLI11 only says that one is missing.
+int refuse_command(const CLI::App& app) {
+  std::string allowed;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    allowed.append(allowed.empty() ? "" : ", ").append(command->get_name());
+  }
+  std::fprintf(stderr, "poreshock: unknown command \"%s\", allowed %s; see --help\n",
+               app.remaining().front().c_str(), allowed.c_str());
+  return static_cast<int>(poreshock::ExitCode::bad_input);
+}
+
 /// Every error that all ranks know of ends here; one that a single rank throws is fatal to all.
 int guarded(const poreshock::Command& command, MPI_Comm communicator) {
   using poreshock::ExitCode;
@@ -52,6 +63,9 @@ int main(int argc, char** argv) {
     const char* ranked = std::getenv("OMPI_COMM_WORLD_RANK");
     // mpirun ends all ranks as soon as one fails, so that only the rank that prints may.
     if (ranked != nullptr && std::string_view(ranked) != "0") return 0;
+    if (error.get_exit_code() != 0 && app.get_subcommands().empty() && !app.remaining().empty()) {
+      return refuse_command(app);
+    }
     return app.exit(error) == 0 ? 0 : static_cast<int>(poreshock::ExitCode::bad_input);
   }
   const poreshock::Runtime runtime(argc, argv);

@@ -6,6 +6,16 @@
 
 namespace poreshock {
 
+namespace {
+
+/// Sets nodes to +0. Not std::fill: as a template argument Lanes is a type aligned to 64 bytes,
+/// which memory of PETSc is not.
+void set_zero(Lanes* nodes, std::ptrdiff_t count) {
+  for (std::ptrdiff_t i = 0; i < count; ++i) nodes[i] = Lanes{};
+}
+
+}  // namespace
+
 GridShape make_grid_shape(const Scene& scene) {
   GridShape shape;
   shape.dimension = scene.dimension;
@@ -96,8 +106,8 @@ int SlabGrid::up_plane(int row_offset, int node_offset) const {
 
 void SlabGrid::clear() {
   const std::ptrdiff_t width = shape_.row_size;
-  std::fill(nodes_, nodes_ + (node_end_ - first_) * width, Lanes{});
-  std::fill(seam_, seam_ + 2 * planes_ * width, Lanes{});
+  set_zero(nodes_, (node_end_ - first_) * width);
+  set_zero(seam_, 2 * planes_ * width);
 }
 
 void SlabGrid::add_row(int row, const Lanes* buffer) {
@@ -123,7 +133,7 @@ void SlabGrid::assemble_seam_row(int node_row, const Lanes* below, const Lanes* 
   const std::ptrdiff_t width = shape_.row_size;
   const int depth = shape_.stencil - 1;
   Lanes* target = row(node_row);
-  std::fill(target, target + width, Lanes{});
+  set_zero(target, width);
   for (int a = offset; a < depth; ++a) {
     const Lanes* plane = below + up_plane(a, offset) * width;
     for (std::ptrdiff_t i = 0; i < width; ++i) target[i] += plane[i];

@@ -219,6 +219,32 @@ void write_morphology(const std::string& path, const MorphologyStamp& stamp,
                [&] { write_tables(path, "morphology", stamp, make_tables(stamp, records)); });
 }
 
+void remove_morphology_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {
+  on_rank_zero(communicator, [&] {
+    const std::string path = folder + "/morphology.h5";
+    if (!std::filesystem::exists(path)) return;
+    MorphologyStamp stamp;
+    const Tables all = read_tables(path, stamp);
+    std::set<std::int64_t> late;
+    for (const auto& [field, table] : all) {
+      late.insert(std::lower_bound(table.records.begin(), table.records.end(), first),
+                  table.records.end());
+    }
+    if (late.empty()) return;
+    Tables kept;
+    append_tables(path, all, late, kept);
+    const FieldTable& table = kept.begin()->second;
+    if (table.records.empty()) {
+      remove_file(path);
+      return;
+    }
+    stamp.record = table.records.back();
+    stamp.step = table.series.at("step").integers.back();
+    stamp.time = table.series.at("time").numbers.back();
+    write_tables(path, "morphology", stamp, kept);
+  });
+}
+
 std::int64_t collect_morphology(const std::string& folder, MPI_Comm communicator) {
   std::int64_t merged = 0;
   on_rank_zero(communicator, [&] {

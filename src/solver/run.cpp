@@ -7,6 +7,7 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/core/stop_signal.hpp"
 #include "poreshock/output/folder.hpp"
+#include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
 #include "poreshock/solver/ownership.hpp"
@@ -137,7 +138,10 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
   prepare_output_folder(options.folder, options.force, options.continues, communicator);
   on_rank_zero(communicator, [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
-  if (restarted) remove_records_from(options.folder, sim.clock.beat + 1, communicator);
+  if (restarted) {
+    remove_morphology_from(options.folder, sim.clock.beat + 1, communicator);
+    remove_records_from(options.folder, sim.clock.beat + 1, communicator);
+  }
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, sim);
   progress.first_step = sim.clock.step;
   progress.row_wall = MPI_Wtime();

@@ -8,14 +8,27 @@ namespace poreshock {
 namespace {
 
 /// What one particle gives to a node at offset d with weight N and slope dN, linear in both:
-/// N (constant + sum_k linear_k d_k) + sum_k dN_k force_k, plus the affine kinetic energy.
+/// N (constant + sum_k linear_k d_k) + sum_k dN_k force_k, plus the affine kinetic energy,
+/// quadratic in d, which stands in the kinetic lane of `quadratic`.
 template <int Dim>
 struct Contribution {
   Lanes constant;
   std::array<Lanes, Dim> linear;
   std::array<Lanes, Dim> force;
-  std::array<std::array<double, Dim>, Dim> quadratic;  ///< m C_k . C_l / 2
+  std::array<std::array<Lanes, Dim>, Dim> quadratic;  ///< m C_k . C_l / 2
 };
+
+/// A node's sums from their parts. Built at once: writing single lanes would go through memory.
+template <int Dim>
+inline Lanes sum_lanes(double mass, const std::array<double, Dim>& momentum,
+                       const std::array<double, Dim>& force, double kinetic) {
+  if constexpr (Dim == 2) {
+    return Lanes{mass, momentum[0], momentum[1], force[0], force[1], kinetic, 0.0, 0.0};
+  } else {
+    return Lanes{mass,     momentum[0], momentum[1], momentum[2],
+                 force[0], force[1],    force[2],    kinetic};
+  }
+}
 
 template <int Dim>
 inline int symmetric_index(int a, int b) {
@@ -31,79 +44,69 @@ inline int symmetric_index(int a, int b) {
 template <int Dim, bool Affine>
 inline Contribution<Dim> contribution(const Particles<Dim>& particles, std::uint32_t p,
                                       double pressure, double cell) {
-  using Lane = SumLane<Dim>;
+  constexpr std::array<double, Dim> none{};
   Contribution<Dim> c{};
   const double m = particles.mass[p];
   const double volume_per_cell = m / (particles.density[p] * cell);  // slopes are per cell
-  c.constant[Lane::mass] = m;
+  std::array<double, Dim> v, momentum;
   double speed2 = 0.0;
   for (int a = 0; a < Dim; ++a) {
-    const double v = particles.velocity[a][p];
-    c.constant[Lane::momentum + a] = m * v;
-    speed2 += v * v;
+    v[a] = particles.velocity[a][p];
+    momentum[a] = m * v[a];
+    speed2 += v[a] * v[a];
   }
+  c.constant = sum_lanes<Dim>(m, momentum, none, Affine ? 0.5 * m * speed2 : 0.0);
   if constexpr (Affine) {
-    c.constant[Lane::kinetic] = 0.5 * m * speed2;
     std::array<std::array<double, Dim>, Dim> column;  // C_k in velocity per cell
     for (int k = 0; k < Dim; ++k) {
       double along = 0.0;
       for (int a = 0; a < Dim; ++a) {
         column[k][a] = particles.affine[a * Dim + k][p] * cell;
-        c.linear[k][Lane::momentum + a] = m * column[k][a];
-        along += particles.velocity[a][p] * column[k][a];
+        momentum[a] = m * column[k][a];
+        along += v[a] * column[k][a];
       }
-      c.linear[k][Lane::kinetic] = m * along;
+      c.linear[k] = sum_lanes<Dim>(0.0, momentum, none, m * along);
     }
     for (int k = 0; k < Dim; ++k) {
       for (int l = 0; l < Dim; ++l) {
         double product = 0.0;
         for (int a = 0; a < Dim; ++a) product += column[k][a] * column[l][a];
-        c.quadratic[k][l] = 0.5 * m * product;
+        c.quadratic[k][l] = sum_lanes<Dim>(0.0, none, none, 0.5 * m * product);
       }
     }
   }
   for (int k = 0; k < Dim; ++k) {
+    std::array<double, Dim> force;
     for (int a = 0; a < Dim; ++a) {
       double stress = particles.deviator[symmetric_index<Dim>(a, k)][p];
       if (a == k) stress -= pressure;
-      c.force[k][Lane::force + a] = -volume_per_cell * stress;  // eq 14
+      force[a] = -volume_per_cell * stress;  // eq 14
     }
+    c.force[k] = sum_lanes<Dim>(0.0, none, force, 0.0);
   }
   return c;
-}
-
-/// Factors of one axis for the terms that are not N times something: slopes in the force lanes, the
-/// squared offset in the kinetic lane.
-template <int Dim>
-inline Lanes slope_factor(double slope, double weighted_square) {
-  Lanes f{};
-  for (int a = 0; a < Dim; ++a) f[SumLane<Dim>::force + a] = slope;
-  f[SumLane<Dim>::kinetic] = weighted_square;
-  return f;
 }
 
 template <class Spline, bool Affine>
 inline void accumulate(const Contribution<2>& c, const Stencil<2, Spline>& s, Lanes* sums) {
   constexpr int w = Spline::width;
-  constexpr int kinetic = SumLane<2>::kinetic;
   const AxisWeights<w>& x = s.axis[0];
   const AxisWeights<w>& y = s.axis[1];
+  // Per row of nodes: the slope for the force lanes, the squared offset for the kinetic lane.
   Lanes factor[w];
   for (int j = 0; j < w; ++j) {
-    factor[j] = slope_factor<2>(y.slope[j], y.value[j] * (y.offset[j] * y.offset[j]));
+    const double square = y.value[j] * (y.offset[j] * y.offset[j]);
+    factor[j] = sum_lanes<2>(0.0, {0.0, 0.0}, {y.slope[j], y.slope[j]}, square);
   }
-  Lanes last = c.force[1];
-  if constexpr (Affine) last[kinetic] = c.quadratic[1][1];
+  const Lanes last = Affine ? c.force[1] + c.quadratic[1][1] : c.force[1];
 #pragma GCC unroll 4
   for (int i = 0; i < w; ++i) {
     Lanes even = x.value[i] * c.constant + x.slope[i] * c.force[0];
     Lanes odd{};
     if constexpr (Affine) {
       const double moment = x.value[i] * x.offset[i];
-      even += moment * c.linear[0];
-      even[kinetic] += moment * x.offset[i] * c.quadratic[0][0];
-      odd = x.value[i] * c.linear[1];
-      odd[kinetic] += 2.0 * (moment * c.quadratic[0][1]);
+      even += moment * (c.linear[0] + x.offset[i] * c.quadratic[0][0]);
+      odd = x.value[i] * c.linear[1] + (2.0 * moment) * c.quadratic[0][1];
     }
     const Lanes end = x.value[i] * last;
 #pragma GCC unroll 4
@@ -118,18 +121,17 @@ inline void accumulate(const Contribution<2>& c, const Stencil<2, Spline>& s, La
 template <class Spline, bool Affine>
 inline void accumulate(const Contribution<3>& c, const Stencil<3, Spline>& s, Lanes* sums) {
   constexpr int w = Spline::width;
-  constexpr int kinetic = SumLane<3>::kinetic;
   for (int k = 0; k < w; ++k) {
     for (int j = 0; j < w; ++j) {
       const double yz = s.axis[1].value[j] * s.axis[2].value[k];
       const double dy = s.axis[1].offset[j], dz = s.axis[2].offset[k];
       Lanes even = c.constant;
-      double quadratic = 0.0, cross = 0.0;
+      Lanes cross{};
       if constexpr (Affine) {
         even += dy * c.linear[1] + dz * c.linear[2];
-        quadratic = (dy * dy * c.quadratic[1][1] + dz * dz * c.quadratic[2][2]) +
-                    2.0 * (dy * dz * c.quadratic[1][2]);
-        cross = 2.0 * (dy * c.quadratic[0][1] + dz * c.quadratic[0][2]);
+        even += (dy * dy) * c.quadratic[1][1] + (dz * dz) * c.quadratic[2][2] +
+                (2.0 * (dy * dz)) * c.quadratic[1][2];
+        cross = c.linear[0] + (2.0 * dy) * c.quadratic[0][1] + (2.0 * dz) * c.quadratic[0][2];
       }
       const Lanes slope = (s.axis[1].slope[j] * s.axis[2].value[k]) * c.force[1] +
                           (s.axis[1].value[j] * s.axis[2].slope[k]) * c.force[2];
@@ -137,8 +139,7 @@ inline void accumulate(const Contribution<3>& c, const Stencil<3, Spline>& s, La
         Lanes sum = even;
         if constexpr (Affine) {
           const double dx = s.axis[0].offset[i];
-          sum += dx * c.linear[0];
-          sum[kinetic] += quadratic + dx * (cross + dx * c.quadratic[0][0]);
+          sum += dx * (cross + dx * c.quadratic[0][0]);
         }
         sums[(k * w + j) * w + i] += (s.axis[0].value[i] * yz) * sum + s.axis[0].value[i] * slope +
                                      (s.axis[0].slope[i] * yz) * c.force[0];

@@ -2,14 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "poreshock/particles/cell_order.hpp"
-#include "support/random_numbers.hpp"
+#include "support/shuffle.hpp"
 
 namespace poreshock {
 namespace {
+
+using test::natural_order;
+using test::shuffled;
 
 /// The three sort keys of some particles, in storage order.
 struct Keys {
@@ -42,16 +44,6 @@ Keys stored_as(const std::vector<std::uint32_t>& order, const Keys& keys) {
   return result;
 }
 
-std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed) {
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0U);
-  reference::Random random{seed};
-  for (std::size_t k = count; k > 1; --k) {
-    std::swap(order[k - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(k)))]);
-  }
-  return order;
-}
-
 std::vector<std::int64_t> ids_in_order(const Keys& keys, std::size_t cells, CellOrder& result) {
   sort_by_cell(keys.cell, cells, keys.grain, keys.id, result);
   std::vector<std::int64_t> ids;
@@ -64,8 +56,7 @@ TEST(CellOrder, SortsByCellThenGrainThenId) {
   const Keys keys = random_keys(500, static_cast<int>(cells) - 2, 3);
   CellOrder result;
   sort_by_cell(keys.cell, cells, keys.grain, keys.id, result);
-  std::vector<std::uint32_t> expected(keys.id.size());
-  std::iota(expected.begin(), expected.end(), 0U);
+  std::vector<std::uint32_t> expected = natural_order(keys.id.size());
   std::sort(expected.begin(), expected.end(),
             [&](std::uint32_t a, std::uint32_t b) { return keys.key(a) < keys.key(b); });
   EXPECT_EQ(result.order, expected);

@@ -54,9 +54,7 @@ template <int Dim>
 void set_motion(const std::array<double, Dim * Dim>& end,
                 const std::array<double, Dim * Dim>& middle, std::size_t p, StepData<Dim>& step) {
   for (int k = 0; k < Dim * Dim; ++k) step.gradient[k][p] = end[k];
-  const auto rate = [&](int a, int b) {
-    return 0.5 * (middle[a * Dim + b] + middle[b * Dim + a]);
-  };
+  const auto rate = [&](int a, int b) { return 0.5 * (middle[a * Dim + b] + middle[b * Dim + a]); };
   for (int a = 0; a < Dim; ++a) step.rate[a][p] = rate(a, a);
   step.rate[Dim][p] = rate(0, 1);
   if constexpr (Dim == 3) {
@@ -65,8 +63,8 @@ void set_motion(const std::array<double, Dim * Dim>& end,
   }
 }
 
-/// Random states: compressed or stretched, hot, stressed beyond yield or below (a fluid not at all),
-/// deforming by up to `strain` in a step of length dt.
+/// Random states: compressed or stretched, hot, stressed beyond yield or below (a fluid not at
+/// all), deforming by up to `strain` in a step of length dt.
 template <int Dim>
 Points<Dim> random_points(std::size_t count, const std::vector<Material>& materials, bool kinematic,
                           bool averaging, double strain, double dt, reference::Random& random) {
@@ -129,8 +127,8 @@ std::vector<std::uint64_t> bits_of(const Particles<Dim>& particles, std::size_t 
 
 /// Deviator or back stress of one particle.
 template <int Dim>
-SymmetricTensor<Dim> tensor_of(
-    const std::array<std::vector<double>, symmetric_size<Dim>>& columns, std::size_t i = 0) {
+SymmetricTensor<Dim> tensor_of(const std::array<std::vector<double>, symmetric_size<Dim>>& columns,
+                               std::size_t i = 0) {
   SymmetricTensor<Dim> result;
   for (int k = 0; k < symmetric_size<Dim>; ++k) result[k] = columns[k][i];
   return result;

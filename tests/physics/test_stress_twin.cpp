@@ -49,8 +49,12 @@ Eigen::Matrix3d matrix(const SymmetricTensor<Dim>& t) {
 
 template <int Dim>
 reference::PointState state_of(const Particles<Dim>& p, std::size_t i) {
-  reference::PointState s{p.density[i],         p.pressure[i],       p.viscous_pressure[i],
-                          p.internal_energy[i], p.plastic_strain[i], p.plastic_work[i],
+  reference::PointState s{p.density[i],
+                          p.pressure[i],
+                          p.viscous_pressure[i],
+                          p.internal_energy[i],
+                          p.plastic_strain[i],
+                          p.plastic_work[i],
                           matrix<Dim>(tensor_of<Dim>(p.deviator, i))};
   if (p.options.back_stress) s.back_stress = matrix<Dim>(tensor_of<Dim>(p.back_stress, i));
   return s;
@@ -119,13 +123,17 @@ void compare_with_twin(Thermal thermal, bool kinematic, bool averaging, PlasticH
   int yielding = 0, elastic = 0;
   for (std::size_t i = 0; i < 300; ++i) {
     const MaterialParameters& m = all[static_cast<std::size_t>(points.particles.material[i])];
-    const reference::StressLaw law{reference::solid(m), thermal == Thermal::conserving,
-                                   heat == PlasticHeat::work, 0.5, 1.7, settings.cell,
+    const reference::StressLaw law{reference::solid(m),
+                                   thermal == Thermal::conserving,
+                                   heat == PlasticHeat::work,
+                                   0.5,
+                                   1.7,
+                                   settings.cell,
                                    settings.cfl};
     reference::PointState state = state_of<Dim>(points.particles, i);
     const double before = state.plastic_strain;
-    const auto report = reference::advance_point(
-        law, motion_of<Dim>(points, settings.grid_velocity, i), dt, state);
+    const auto report =
+        reference::advance_point(law, motion_of<Dim>(points, settings.grid_velocity, i), dt, state);
     (state.plastic_strain > before ? yielding : elastic) += 1;
     dt_limit = std::min(dt_limit, report.dt_limit);
     viscous_heat += points.particles.mass[i] * report.viscous_heat;
@@ -160,9 +168,13 @@ void compare_all_modes(double strain, double strain_error) {
   }
 }
 
-TEST(StressTwin, PlaneStrain) { compare_all_modes<2>(2.0e-3, 0.0); }
+TEST(StressTwin, PlaneStrain) {
+  compare_all_modes<2>(2.0e-3, 0.0);
+}
 
-TEST(StressTwin, Space) { compare_all_modes<3>(2.0e-3, 0.0); }
+TEST(StressTwin, Space) {
+  compare_all_modes<3>(2.0e-3, 0.0);
+}
 
 // The logarithm is a rational function of z, of relative error 0.023 z^6. In the plane z is the
 // difference of the principal strains (half of it counts, twice), in space each of the three.
@@ -180,7 +192,8 @@ void storage_does_not_matter(std::size_t count, bool kinematic, bool averaging, 
   const std::vector<Material> materials = make_materials(parameters(PlasticHeat::work));
   const StressSettings<Dim> settings = settings_of<Dim>(thermal, averaging);
   reference::Random random{count};
-  const Points<Dim> start = random_points<Dim>(count, materials, kinematic, averaging, 0.02, dt, random);
+  const Points<Dim> start =
+      random_points<Dim>(count, materials, kinematic, averaging, 0.02, dt, random);
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
   for (std::size_t k = count; k > 1; --k) {

@@ -34,7 +34,7 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.sample.height, 2e-4);
   EXPECT_EQ(scene.sample.particles_per_cell, 2);
   EXPECT_EQ(scene.materials[0].T0, 300.0);
-  EXPECT_EQ(scene.time.cfl, 0.35);
+  EXPECT_EQ(scene.time.cfl, 0.5);
   EXPECT_EQ(scene.transfer, Transfer{});
   EXPECT_EQ(scene.viscosity, Viscosity{});
   EXPECT_EQ(scene.output.beat, 5e-9);

@@ -38,6 +38,11 @@ std::string morphology_name(std::int64_t record);
 void write_morphology(const std::string& path, const MorphologyStamp& stamp,
                       const std::vector<MorphologyRecord>& records, MPI_Comm communicator);
 
+/// Takes the records from number `first` on out of morphology.h5, which a restarted run is about to
+/// measure again. Without such a file or such records nothing changes; InputError on all ranks when
+/// the file is damaged. Rank 0 works. Collective.
+void remove_morphology_from(const std::string& folder, std::int64_t first, MPI_Comm communicator);
+
 /// Merges all morphology_NNNNNN.h5 of a folder, and what an earlier morphology.h5 holds of other
 /// records, into morphology.h5 (curves as times x thresholds, in the order of the records) and
 /// removes the small files once it is safely there. Without small files nothing changes. InputError

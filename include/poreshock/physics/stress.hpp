@@ -16,7 +16,7 @@ struct StressSettings {
   Viscosity viscosity;
   bool averaging = false;
   double cell = 0.0;  ///< m, length of the artificial viscosity
-  double cfl = 0.35;
+  double cfl = 0.5;
   Vector<Dim> grid_velocity = Vector<Dim>::Zero();
   double inverse_energy_quantum = 1.0;
 };

@@ -105,7 +105,7 @@ struct Viscosity {
 
 struct TimeControl {
   double end = 0.0;  ///< s
-  double cfl = 0.35;
+  double cfl = 0.5;
   std::int64_t max_steps = 0;  ///< 0 = no limit
   bool operator==(const TimeControl&) const = default;
 };

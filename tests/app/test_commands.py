@@ -1,0 +1,107 @@
+"""The commands that run nothing: check, sample, info, and the options that print and end."""
+import numpy
+
+from program import BALLS, POROUS, ProgramTest, datasets, flip_byte, particles
+
+
+class Commands(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS)
+        cls.write("balls.toml", BALLS)
+        cls.run_scene("porous.toml", "run", "--set", "time.max_steps=25", ranks=2)
+
+    def test_version(self):
+        self.assertRegex(self.succeed("--version").output, r"^\d+\.\d+\.\d+ \(\S+\)\n$")
+
+    def test_help_names_every_command(self):
+        text = self.succeed("--help", ranks=2).output
+        for word in ("run", "check", "sample", "info"):
+            self.assertRegex(text, rf"\n  {word} +\S")
+        for option in ("--output", "--restart", "--wall-time", "--force", "--quiet", "--set"):
+            self.assertIn(option, self.succeed("run", "--help").output)
+
+    def test_check_prints_the_scene_and_what_follows_and_writes_nothing(self):
+        before = self.contents(".")
+        text = self.succeed("check", "porous.toml", ranks=2).output
+        self.assertEqual(self.contents("."), before)
+        resolved = (self.folder / "run/scene.toml").read_text()
+        self.assertTrue(text.startswith(resolved.replace("max_steps = 25 ", "max_steps = 0  ")), text)
+        count = len(particles(self.folder / "run/snapshot_000000.h5")["id"])
+        self.assertIn(f"\nparticles               {count}\n", text)
+        self.assertRegex(text, r"\nvoids                   6, void fraction 0\.150000 \(asked 0\.15\d*\), "
+                               r"least gap \S+ m\n")
+        self.assertIn("\ncells per void diameter 5.0\n", text)
+        self.assertRegex(text, r"\nwarning: A void is only 5\S* cells across; below 16 its collapse is not resolved\.")
+        self.assertRegex(text, r"\ntypical time step       3\.79e-10 s, about 53 steps\n")
+        self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
+        self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 4\.0 million particle-steps")
+
+    def test_check_takes_overrides(self):
+        text = self.succeed("check", "balls.toml", "--set", "time.end=4e-9", "--set", "title='three balls'").output
+        self.assertIn('title = "three balls"', text)
+        self.assertRegex(text, r"\nend = 4e-0?9 ")
+
+    def test_sample_is_the_first_snapshot_of_a_run(self):
+        result = self.succeed("sample", "porous.toml", "--output", "sample", ranks=3)
+        self.assertTrue(result.output.endswith("sample in               sample/snapshot_000000.h5\n"), str(result))
+        self.assertEqual(sorted(self.contents("sample")), ["sample/snapshot_000000.h5", "sample/snapshots.xdmf"])
+        sample = particles(self.folder / "sample/snapshot_000000.h5")
+        first = particles(self.folder / "run/snapshot_000000.h5")
+        self.assertIn(f"\nparticles               {len(sample['id'])}\n", result.output)
+        for name, values in first.items():
+            numpy.testing.assert_array_equal(sample[name], values, err_msg=name)
+
+    def test_sample_does_not_replace_a_folder(self):
+        before = self.contents("run")
+        self.assertIn("output folder run: exists already;", self.message(2, "sample", "porous.toml", "--output", "run"))
+        self.assertEqual(self.contents("run"), before)
+
+    def info(self, name):
+        return self.succeed("info", name).output
+
+    def test_info_on_a_snapshot(self):
+        text = self.info("run/snapshot_000000.h5")
+        count = len(particles(self.folder / "run/snapshot_000000.h5")["id"])
+        self.assertTrue(text.startswith("run/snapshot_000000.h5: snapshot of poreshock\ncontent   intact\n"
+                                        "time      0 s\nstep      0\nrecord    0\n"), text)
+        self.assertRegex(text, rf"\n  /particles/stress +float64  {count} x 4  Pa\n")
+
+    def test_info_on_a_checkpoint(self):
+        text = self.info("run/checkpoint_000000025.h5")
+        self.assertTrue(text.startswith("run/checkpoint_000000025.h5: checkpoint of poreshock\n"
+                                        "content   intact\n"), text)
+        self.assertIn("\nstep      25\n", text)
+        self.assertIn("\ndimension 2\n", text)
+
+    def test_info_on_morphology(self):
+        text = self.info("run/morphology.h5")
+        rows = len(datasets(self.folder / "run/morphology.h5")["temperature/time"])
+        self.assertTrue(text.startswith("run/morphology.h5: morphology of poreshock\ncontent   intact\n"), text)
+        self.assertRegex(text, rf"\n  /temperature/F +int64  {rows} x 60\n")
+        self.assertRegex(text, r"\n  /pressure/threshold +float64  2  Pa\n")
+
+    def test_info_on_text_files(self):
+        text = self.info("run/history.csv")
+        rows = (self.folder / "run/history.csv").read_text().count("\n") - 1
+        self.assertTrue(text.startswith("run/history.csv: history of a 2-D run of poreshock\n"
+                                        f"rows      {rows}\n"), text)
+        self.assertIn("\nstep      25 (last row)\n", text)
+        self.assertEqual(self.info("run/snapshots.xdmf"),
+                         "run/snapshots.xdmf: time series of 2 snapshots, for ParaView\n")
+        self.assertTrue(self.info("run/timings.json").startswith("run/timings.json: timings of a run of poreshock\n{"))
+
+    def test_info_says_what_is_damaged(self):
+        (self.folder / "copy.h5").write_bytes((self.folder / "run/snapshot_000000.h5").read_bytes())
+        flip_byte(self.folder / "copy.h5", 60000)
+        self.assertIn("\ncontent   copy.h5: damaged: its content does not match the hash in its header\n",
+                      self.info("copy.h5"))
+
+    def test_info_refuses_what_is_not_ours(self):
+        self.write("notes.txt", "nothing of poreshock\n")
+        self.refuse("notes.txt: not a file of poreshock; known are *.h5, history.csv, timings.json, "
+                    "snapshots.xdmf and *.toml", "info", "notes.txt", ranks=2)
+        self.refuse("none.h5: not found", "info", "none.h5")
+        self.write("fake.h5", "nothing of HDF5\n")
+        self.refuse("fake.h5: not an HDF5 file, or its beginning is damaged", "info", "fake.h5")

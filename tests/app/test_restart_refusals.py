@@ -1,0 +1,86 @@
+"""Exit 2: a checkpoint a run cannot go on from; and what the folder holds is kept."""
+import shutil
+
+from program import BALLS, DISC, POROUS, ProgramTest, flip_byte
+
+
+class RefusedRestart(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS)
+        cls.write("disc.toml", DISC)
+        cls.write("balls.toml", BALLS)
+        cls.run_scene("porous.toml", "out", "--set", "time.max_steps=30", ranks=2)
+        cls.checkpoint = "out/checkpoint_000000025.h5"
+        cls.whole = (cls.folder / cls.checkpoint).read_bytes()
+
+    def tearDown(self):
+        (self.folder / self.checkpoint).write_bytes(self.whole)
+
+    def refuse_restart(self, message, restart, *arguments, scene="porous.toml", output="out", ranks=1):
+        before = self.contents(".")
+        self.refuse(message, "run", scene, "--output", output, "--restart", restart, *arguments, ranks=ranks)
+        self.assertEqual(self.contents("."), before)
+
+    def test_foreign_file(self):
+        shutil.copy(self.folder / "out/snapshot_000000.h5", self.folder / "out/copy.h5")
+        self.refuse_restart("out/copy.h5: not a checkpoint of poreshock", "out/copy.h5", ranks=2)
+        self.write("out/text.h5", "not HDF5\n")
+        self.refuse_restart("out/text.h5: not an HDF5 file, or its beginning is damaged", "out/text.h5")
+
+    def test_missing_file(self):
+        self.refuse_restart("out/none.h5: not found", "out/none.h5", ranks=3)
+        self.refuse_restart("out: not a file but a folder or a device", "out")
+
+    def test_truncated_checkpoint(self):
+        (self.folder / self.checkpoint).write_bytes(self.whole[:-1000])
+        before = self.contents(".")
+        message = self.message(2, "run", "porous.toml", "--output", "out", "--restart", self.checkpoint)
+        self.assertTrue(message.startswith(f"{self.checkpoint}: truncated or damaged HDF5 file: "), message)
+        self.assertEqual(self.contents("."), before)
+
+    def test_flipped_byte(self):
+        flip_byte(self.folder / self.checkpoint, len(self.whole) // 2)
+        for ranks in (1, 3):
+            self.refuse_restart(f"{self.checkpoint}: damaged: its content does not match the hash in its header",
+                                self.checkpoint, ranks=ranks)
+
+    def test_no_good_checkpoint_for_latest(self):
+        flip_byte(self.folder / self.checkpoint, len(self.whole) // 2)
+        self.refuse_restart("out: holds no usable checkpoint (checkpoint_NNNNNNNNN.h5):\n"
+                            f"passed over {self.checkpoint}: damaged: its content does not match the hash in its header",
+                            "latest", ranks=2)
+
+    def test_no_checkpoint_for_latest(self):
+        self.refuse_restart("none: holds no usable checkpoint (checkpoint_NNNNNNNNN.h5)", "latest", output="none")
+        (self.folder / "empty").mkdir()
+        self.refuse_restart("empty: holds no usable checkpoint (checkpoint_NNNNNNNNN.h5)", "latest", output="empty")
+
+    def test_another_dimension(self):
+        self.refuse_restart(f"{self.checkpoint}: holds a 2-D run, the scene asks for 3-D", self.checkpoint,
+                            scene="balls.toml", output="balls", ranks=2)
+
+    def test_other_physics(self):
+        allowed = ("; allowed are differences in the title, time.end, time.max_steps, output, checkpoint and morphology: "
+                   "restart with the scene.toml beside it, or start a new run")
+        written = f"{self.checkpoint} was written by a scene that differs in "
+        self.refuse_restart(written + "loading" + allowed, "latest", "--set", "loading.velocity=1400", ranks=2)
+        self.refuse_restart(written + "time.cfl, output.beat" + allowed, "latest", "--set", "time.cfl=0.3", "--set",
+                            "output.beat=5e-9", "--set", "output.history=5e-9")
+        self.refuse_restart(written + "domain, sample, body, loading, output.beat" + allowed, self.checkpoint,
+                            scene="disc.toml", output="disc")
+
+    def test_other_thresholds_in_the_same_folder(self):
+        other = ("--set", "morphology.thresholds.pressure=[1e9, 6e9]")
+        self.refuse_restart(f"{self.checkpoint} was written with other morphology fields, thresholds or pixel, which "
+                            "cannot go on in the same folder: keep them, or choose another folder with --output", "latest",
+                            *other)
+        self.run_scene("porous.toml", "elsewhere", "--restart", self.checkpoint, *other, "--set", "time.end=10e-9")
+
+    def test_existing_folder_of_another_run(self):
+        self.write("other.toml", POROUS)
+        self.run_scene("other.toml", "other", "--set", "time.max_steps=2")
+        self.refuse_restart("output folder other: exists already; choose another with --output, overwrite it with "
+                            "--force, or go on from a checkpoint in it with --restart latest", self.checkpoint,
+                            output="other", ranks=2)

@@ -1,0 +1,136 @@
+// B-splines: the sums that make transfers conserve, the formulas, and the stencil cell.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "poreshock/transfer/shape.hpp"
+#include "support/random_numbers.hpp"
+#include "support/scalar_transfer.hpp"
+
+namespace poreshock {
+namespace {
+
+/// Points of a domain of 12 cells: random ones, whole and half cells, and their neighbours.
+std::vector<double> sample_points() {
+  std::vector<double> points;
+  reference::Random random{11};
+  for (int k = 0; k < 1000; ++k) points.push_back(12.0 * random.uniform());
+  for (int k = 0; k < 24; ++k) {
+    points.push_back(0.5 * k);
+    points.push_back(std::nextafter(0.5 * k, 13.0));
+    points.push_back(std::nextafter(0.5 * k + 0.5, 0.0));
+  }
+  return points;
+}
+
+template <class Spline>
+class Shape : public ::testing::Test {};
+using Splines = ::testing::Types<QuadraticSpline, CubicSpline>;
+TYPED_TEST_SUITE(Shape, Splines);
+
+TYPED_TEST(Shape, HasTheMomentsOfABSpline) {
+  constexpr double inertia = TypeParam::width == 3 ? 1.0 / 4.0 : 1.0 / 3.0;
+  EXPECT_EQ(1.0 / TypeParam::inverse_inertia, inertia);
+  for (const double s : sample_points()) {
+    const int base = TypeParam::base(s);
+    const auto w = TypeParam::weights(s, base);
+    double one = 0.0, first = 0.0, second = 0.0, place = 0.0;
+    double slope = 0.0, slope_first = 0.0, slope_second = 0.0;
+    for (int i = 0; i < TypeParam::width; ++i) {
+      EXPECT_GE(w.value[i], 0.0) << s;
+      EXPECT_NEAR(w.offset[i], (base + i - 1) - s, 1e-15) << s;
+      one += w.value[i];
+      first += w.value[i] * w.offset[i];
+      second += w.value[i] * w.offset[i] * w.offset[i];
+      place += w.value[i] * (base + i - 1);
+      slope += w.slope[i];
+      slope_first += w.slope[i] * w.offset[i];
+      slope_second += w.slope[i] * w.offset[i] * w.offset[i];
+    }
+    EXPECT_NEAR(one, 1.0, 1e-15) << s;
+    EXPECT_NEAR(first, 0.0, 1e-15) << s;
+    EXPECT_NEAR(second, inertia, 1e-15) << s;
+    EXPECT_NEAR(place, s, 1e-15 * std::max(s, 1.0)) << s;
+    EXPECT_NEAR(slope, 0.0, 1e-15) << s;
+    EXPECT_NEAR(slope_first, 1.0, 1e-15) << s;
+    EXPECT_NEAR(slope_second, 0.0, 1e-15) << s;
+  }
+}
+
+TYPED_TEST(Shape, IsThatOfTheTextbook) {
+  for (const double s : sample_points()) {
+    const int base = TypeParam::base(s);
+    const auto w = TypeParam::weights(s, base);
+    for (int i = 0; i < TypeParam::width; ++i) {
+      const double r = s - (base + i - 1);
+      EXPECT_NEAR(w.value[i], reference::spline(TypeParam::width, r), 1e-15) << s;
+      EXPECT_NEAR(w.slope[i], reference::spline_slope(TypeParam::width, r), 1e-15) << s;
+    }
+  }
+}
+
+TYPED_TEST(Shape, SlopeIsTheDerivativeOfTheValue) {
+  constexpr double h = 1e-5;
+  reference::Random random{4};
+  for (int k = 0; k < 1000; ++k) {
+    // Away from the joints, where the third derivative jumps.
+    const double s = random.below(12) + 0.5 * random.below(2) + 0.001 + 0.498 * random.uniform();
+    const int base = TypeParam::base(s);
+    const auto low = TypeParam::weights(s - h, base);
+    const auto middle = TypeParam::weights(s, base);
+    const auto high = TypeParam::weights(s + h, base);
+    for (int i = 0; i < TypeParam::width; ++i) {
+      EXPECT_NEAR(middle.slope[i], (high.value[i] - low.value[i]) / (2.0 * h), 1e-10) << s;
+    }
+  }
+}
+
+TYPED_TEST(Shape, IsContinuousWhereTheStencilChanges) {
+  for (int cell = 1; cell < 11; ++cell) {
+    const double s = TypeParam::width == 3 ? cell + 0.5 : cell;
+    const int base = TypeParam::base(s);
+    const double before = std::nextafter(s, 0.0);
+    ASSERT_EQ(TypeParam::base(before), base - 1);
+    const auto here = TypeParam::weights(s, base);
+    const auto there = TypeParam::weights(before, base - 1);
+    EXPECT_NEAR(there.value[0], 0.0, 1e-15);
+    EXPECT_NEAR(here.value[TypeParam::width - 1], 0.0, 1e-15);
+    for (int i = 0; i + 1 < TypeParam::width; ++i) {
+      EXPECT_NEAR(here.value[i], there.value[i + 1], 2e-15);
+      EXPECT_NEAR(here.slope[i], there.slope[i + 1], 4e-15);
+    }
+  }
+}
+
+TEST(StencilCell, OfTheQuadraticSplineChangesAtHalfCells) {
+  EXPECT_EQ(QuadraticSpline::base(0.0), 0);
+  EXPECT_EQ(QuadraticSpline::base(std::nextafter(0.5, 0.0)), 0);
+  EXPECT_EQ(QuadraticSpline::base(0.5), 1);
+  EXPECT_EQ(QuadraticSpline::base(1.0), 1);
+  EXPECT_EQ(QuadraticSpline::base(std::nextafter(1.5, 0.0)), 1);
+  EXPECT_EQ(QuadraticSpline::base(1.5), 2);
+  EXPECT_EQ(QuadraticSpline::base(1000.5), 1001);
+  EXPECT_EQ(QuadraticSpline::base(std::nextafter(1000.5, 0.0)), 1000);
+}
+
+TEST(StencilCell, OfTheCubicSplineChangesAtWholeCells) {
+  EXPECT_EQ(CubicSpline::base(0.0), 0);
+  EXPECT_EQ(CubicSpline::base(std::nextafter(1.0, 0.0)), 0);
+  EXPECT_EQ(CubicSpline::base(1.0), 1);
+  EXPECT_EQ(CubicSpline::base(1.5), 1);
+  EXPECT_EQ(CubicSpline::base(1000.0), 1000);
+  EXPECT_EQ(CubicSpline::base(std::nextafter(1000.0, 0.0)), 999);
+}
+
+TYPED_TEST(Shape, StencilStaysOnTheGridInTheWholeDomain) {
+  constexpr int cells = 12, nodes = cells + 3;
+  for (const double s : sample_points()) {
+    const int base = TypeParam::base(s);
+    EXPECT_GE(base, 0) << s;
+    EXPECT_LE(base + TypeParam::width, nodes) << s;
+  }
+}
+
+}  // namespace
+}  // namespace poreshock
