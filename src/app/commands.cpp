@@ -52,7 +52,20 @@ std::string differences(const Scene& a, const Scene& b) {
   for (const auto& [name, same] : tables) {
     if (!same) names.append(names.empty() ? "" : ", ").append(name);
   }
-  return names;
+  return names.empty() ? "another table" : names;
+}
+
+/// The stored scene with all that may differ on a restart taken from the scene of now.
+Scene with_free_settings(Scene stored, const Scene& now) {
+  stored.title = now.title;
+  stored.time.end = now.time.end;
+  stored.time.max_steps = now.time.max_steps;
+  const double beat = stored.output.beat;
+  stored.output = now.output;
+  stored.output.beat = beat;
+  stored.checkpoint = now.checkpoint;
+  stored.morphology = now.morphology;
+  return stored;
 }
 
 /// On restart only the end, the output, the checkpoints and the morphology may differ; where the
@@ -64,8 +77,8 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
                      "-D run, the scene asks for " + std::to_string(now.dimension) + "-D");
   }
   const Scene stored = parse_scene(header.scene_text, path);
-  if (const std::string names = differences(now, stored); !names.empty()) {
-    throw InputError(path + " was written by a scene that differs in " + names +
+  if (with_free_settings(stored, now) != now) {
+    throw InputError(path + " was written by a scene that differs in " + differences(now, stored) +
                      "; allowed are differences in the title, time.end, time.max_steps, output, "
                      "checkpoint and morphology: restart with the scene.toml beside it, or start a "
                      "new run");
@@ -114,7 +127,10 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   resolved.output = options.folder;
   if (!command.restart.empty()) {
     options.restart = restart_path(resolved, communicator);
-    options.continues = lies_in(options.restart, options.folder);
+    // One rank asks: on a network file system the others might see something else.
+    int continues = lies_in(options.restart, options.folder) ? 1 : 0;
+    check_mpi(MPI_Bcast(&continues, 1, MPI_INT, 0, communicator), "MPI_Bcast");
+    options.continues = continues == 1;
     require_same_run(scene, checkpoint_header(options.restart, communicator), options.restart,
                      options.continues);
   }

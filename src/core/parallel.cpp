@@ -33,7 +33,7 @@ void check_petsc(int code, const char* what) {
   if (code == 0) return;
   const char* text = nullptr;
   PetscErrorMessage(static_cast<PetscErrorCode>(code), &text, nullptr);
-  throw SystemError(std::string("PETSc failed in ") + what + ": " +
+  throw RankError(std::string("PETSc failed in ") + what + ": " +
                     (text != nullptr ? text : "unknown error") + " (code " + std::to_string(code) +
                     ")");
 }
@@ -43,7 +43,7 @@ void check_mpi(int code, const char* what) {
   char text[MPI_MAX_ERROR_STRING];
   int length = 0;
   MPI_Error_string(code, text, &length);
-  throw SystemError(std::string("MPI failed in ") + what + ": " + std::string(text, length));
+  throw RankError(std::string("MPI failed in ") + what + ": " + std::string(text, length));
 }
 
 int largest(int value, MPI_Comm communicator) {

@@ -1,7 +1,11 @@
 #include "poreshock/grid/slab_grid.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
 
+#include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 
 namespace poreshock {
@@ -22,11 +26,20 @@ GridShape make_grid_shape(const Scene& scene) {
   shape.stencil = scene.transfer.shape == ShapeFunction::cubic ? 4 : 3;
   shape.cell = scene.domain.cell;
   shape.periodic = scene.domain.periodic;
-  shape.row_size = 1;
+  // PETSc counts in PetscInt, 32 bits in Debian's default build.
+  std::int64_t numbers = lane_count;
   for (int axis = 0; axis < scene.dimension; ++axis) {
     shape.nodes[axis] = scene.domain.cells[axis] + 3;
-    if (axis + 1 < scene.dimension) shape.row_size *= shape.nodes[axis];
+    numbers *= shape.nodes[axis];
   }
+  if (numbers > std::numeric_limits<PetscInt>::max()) {
+    throw InputError("the grid has " + std::to_string(numbers / lane_count) +
+                     " nodes, allowed are " +
+                     std::to_string(std::numeric_limits<PetscInt>::max() / lane_count) +
+                     " with this PETSc: use larger cells, or build with a PETSc of 64-bit indices "
+                     "(libpetsc64-real-dev)");
+  }
+  shape.row_size = scene.dimension == 2 ? shape.nodes[0] : shape.nodes[0] * shape.nodes[1];
   shape.rows = shape.nodes[scene.dimension - 1];
   return shape;
 }

@@ -171,6 +171,14 @@ std::string latest_checkpoint(const std::string& folder, MPI_Comm communicator, 
                    (note.empty() ? "" : ":\n" + note));
 }
 
+void remove_checkpoints_after(const std::string& folder, std::int64_t step, MPI_Comm communicator) {
+  on_rank_zero(communicator, [&] {
+    for (const NumberedFile& file : numbered_files(folder, "checkpoint_", 9, ".h5")) {
+      if (file.number > step) remove_file(file.path);
+    }
+  });
+}
+
 void prune_checkpoints(const std::string& folder, int keep, MPI_Comm communicator) {
   on_rank_zero(communicator, [&] {
     const auto files = numbered_files(folder, "checkpoint_", 9, ".h5");

@@ -28,18 +28,29 @@ void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
   resize(particles, kept);
 }
 
+/// MPI type of one packed particle; the caller frees it.
+MPI_Datatype particle_unit(std::size_t bytes) {
+  MPI_Datatype unit;
+  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &unit);
+  MPI_Type_commit(&unit);
+  return unit;
+}
+
 /// Sends a packed buffer one way and receives the one that comes from the other side.
-std::vector<std::byte> shift(const std::vector<std::byte>& buffer, int to, int from, int tag,
-                             MPI_Comm communicator) {
-  std::int64_t outgoing = static_cast<std::int64_t>(buffer.size()), incoming = 0;
+std::vector<std::byte> shift(const std::vector<std::byte>& buffer, std::size_t bytes, int to,
+                             int from, int tag, MPI_Comm communicator) {
+  // One particle is one unit of transfer, so that counts stay below 2^31.
+  std::int64_t outgoing = static_cast<std::int64_t>(buffer.size() / bytes), incoming = 0;
   check_mpi(MPI_Sendrecv(&outgoing, 1, MPI_INT64_T, to, tag, &incoming, 1, MPI_INT64_T, from, tag,
                          communicator, MPI_STATUS_IGNORE),
             "MPI_Sendrecv of particle counts");
-  std::vector<std::byte> received(static_cast<std::size_t>(incoming));
-  check_mpi(MPI_Sendrecv(buffer.data(), static_cast<int>(outgoing), MPI_BYTE, to, tag + 1,
-                         received.data(), static_cast<int>(incoming), MPI_BYTE, from, tag + 1,
+  std::vector<std::byte> received(static_cast<std::size_t>(incoming) * bytes);
+  MPI_Datatype unit = particle_unit(bytes);
+  check_mpi(MPI_Sendrecv(buffer.data(), static_cast<int>(outgoing), unit, to, tag + 1,
+                         received.data(), static_cast<int>(incoming), unit, from, tag + 1,
                          communicator, MPI_STATUS_IGNORE),
             "MPI_Sendrecv of particles");
+  MPI_Type_free(&unit);
   return received;
 }
 
@@ -63,8 +74,8 @@ void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
   holes.insert(holes.end(), gone.begin(), gone.end());
   remove(std::move(holes), particles);
   if (ranks == 1) return;
-  const auto from_above = shift(to_below, below, above, 10, communicator);
-  const auto from_below = shift(to_above, above, below, 20, communicator);
+  const auto from_above = shift(to_below, bytes, below, above, 10, communicator);
+  const auto from_below = shift(to_above, bytes, above, below, 20, communicator);
   unpack(from_above.data(), from_above.size() / bytes, particles);
   unpack(from_below.data(), from_below.size() / bytes, particles);
 }
@@ -83,10 +94,7 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
   check_mpi(
       MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator),
       "MPI_Alltoall of particle counts");
-  // One particle is one unit of transfer, so counts stay below 2^31 per pair of ranks.
-  MPI_Datatype unit;
-  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &unit);
-  MPI_Type_commit(&unit);
+  MPI_Datatype unit = particle_unit(bytes);
   std::vector<std::vector<std::byte>> buffers(static_cast<std::size_t>(ranks));
   std::vector<std::vector<std::byte>> arrived(static_cast<std::size_t>(ranks));
   std::vector<MPI_Request> requests;

@@ -25,6 +25,7 @@ struct BlockResults {
   double sound_speed2[block_size];
   double volume_ratio[block_size];
   double energy[block_size];
+  double travel[block_size];
 };
 
 /// Artificial viscosity and stable step of one particle.
@@ -179,15 +180,17 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   results.sound_speed2[local] = eos.sound_speed2;
   results.volume_ratio[local] = ratio;
   results.energy[local] = energy;
+  results.travel[local] = dt * speed;
 }
 
-void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count,
+void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, double cell,
             double inverse_quantum, StressReport& report) {
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   for (std::size_t k = 0; k < count; ++k) {
-    // Written so that a NaN counts as bad.
+    // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
+    // jump over a whole slab.
     const bool good = r.volume_ratio[k] > 0.5 && r.volume_ratio[k] < 2.0 &&
-                      r.energy[k] - r.energy[k] == 0.0 && r.limit[k] > 0.0;
+                      r.energy[k] - r.energy[k] == 0.0 && r.limit[k] > 0.0 && r.travel[k] < cell;
     if (!good) ++report.bad;
     if (good && r.limit[k] < report.dt_limit) report.dt_limit = r.limit[k];
     if (r.eta[k] > m.eos.guard) ++report.compression_guard;
@@ -213,7 +216,7 @@ void update_block(const J2MieGruneisen& material, const StressSettings<Dim>& all
     update_particle<Dim, Kinematic, Conserving, Averaging>(m, settings, dt, c, first + k, k,
                                                            results);
   }
-  reduce(m, results, count, settings.inverse_energy_quantum, report);
+  reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }
 
 /// Calls visit(material index, first, count) for blocks of stored particles of one material.

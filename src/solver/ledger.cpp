@@ -24,6 +24,7 @@ void for_each_sum(LedgerType& l, Visitor&& visit) {
   visit(l.viscous_heat);
   visit(l.transfer_heat);
   visit(l.escaped_energy);
+  visit(l.escaped_mass);
   for (auto& x : l.escaped_momentum) visit(x);
 }
 
@@ -35,6 +36,7 @@ void for_each_counter(LedgerType& l, Visitor&& visit) {
   visit(l.guards.sound_speed);
   visit(l.guards.wall_crossing);
   visit(l.guards.temperature);
+  visit(l.guards.pixel);
 }
 
 template <int Dim>
@@ -127,7 +129,8 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   sum(sums, communicator);
   std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
                                       ledger.guards.compression + ledger.guards.sound_speed +
-                                          ledger.guards.wall_crossing + ledger.guards.temperature};
+                                          ledger.guards.wall_crossing + ledger.guards.temperature +
+                                          ledger.guards.pixel};
   sum(counts, communicator);
   const auto energy = [&](Int128 quanta) {
     return static_cast<double>(quanta) * ledger.energy_quantum;
@@ -155,6 +158,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
 template <int Dim>
 void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia, Ledger& ledger) {
   ++ledger.escaped_particles;
+  ledger.escaped_mass += quantise(particles.mass[p], 1.0 / mass_quantum(ledger));
   ledger.escaped_energy +=
       quantise(kinetic_energy<Dim>(particles, p, inertia), ledger.nodes.inverse_energy_quantum);
   ledger.escaped_energy += quantise(particles.mass[p] * particles.internal_energy[p],

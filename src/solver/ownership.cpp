@@ -1,5 +1,6 @@
 #include "poreshock/solver/ownership.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "poreshock/core/parallel.hpp"
@@ -12,14 +13,17 @@ namespace {
 
 constexpr std::int64_t storage_interval = 20;
 
-/// Lowest stencil node along one axis; the one place where the scene's shape decides it.
-inline int stencil_base(bool cubic, double s) {
-  return cubic ? CubicSpline::base(s) : QuadraticSpline::base(s);
+/// Lowest stencil node along one axis of `nodes` nodes; the one place where the scene's shape
+/// decides it. A coordinate that rounds to the far end of the domain belongs to the last cell.
+inline int stencil_base(bool cubic, double s, int nodes) {
+  return cubic ? std::min(CubicSpline::base(s), nodes - 4) : QuadraticSpline::base(s);
 }
 
 template <int Dim>
-int row_of(const Particles<Dim>& particles, std::size_t p, bool cubic, double inverse_cell) {
-  return stencil_base(cubic, particles.position[Dim - 1][p] * inverse_cell);
+int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shape,
+           double inverse_cell) {
+  return stencil_base(shape.stencil == 4, particles.position[Dim - 1][p] * inverse_cell,
+                      shape.rows);
 }
 
 /// Brings one coordinate back into the domain where its sides say so; false when it has escaped.
@@ -70,11 +74,13 @@ void sort_particles(Simulation<Dim>& sim) {
   std::vector<std::uint32_t>& cell = sim.cell_scratch;
   cell.resize(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    int index = row_of<Dim>(particles, p, cubic, inverse_cell) - sim.grid->first_row();
+    int index = row_of<Dim>(particles, p, shape, inverse_cell) - sim.grid->first_row();
     if constexpr (Dim == 3) {
-      index = index * shape.nodes[1] + stencil_base(cubic, particles.position[1][p] * inverse_cell);
+      index = index * shape.nodes[1] +
+              stencil_base(cubic, particles.position[1][p] * inverse_cell, shape.nodes[1]);
     }
-    index = index * shape.nodes[0] + stencil_base(cubic, particles.position[0][p] * inverse_cell);
+    index = index * shape.nodes[0] +
+            stencil_base(cubic, particles.position[0][p] * inverse_cell, shape.nodes[0]);
     cell[p] = static_cast<std::uint32_t>(index);
   }
   sort_by_cell(cell, cells, particles.grain, particles.id, sim.cells);
@@ -87,8 +93,8 @@ void sort_particles(Simulation<Dim>& sim) {
 template <int Dim>
 void migrate(Simulation<Dim>& sim) {
   const Phase phase(sim.phases, PhaseName::migrate);
-  const bool cubic = sim.grid->shape().stencil == 4;
-  const double inverse_cell = 1.0 / sim.grid->shape().cell;
+  const GridShape& shape = sim.grid->shape();
+  const double inverse_cell = 1.0 / shape.cell;
   const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
   Particles<Dim>& particles = sim.particles;
   std::vector<std::uint32_t> down, up, gone;
@@ -98,7 +104,7 @@ void migrate(Simulation<Dim>& sim) {
       gone.push_back(static_cast<std::uint32_t>(p));
       continue;
     }
-    const int row = row_of<Dim>(particles, p, cubic, inverse_cell);
+    const int row = row_of<Dim>(particles, p, shape, inverse_cell);
     if (row < sim.grid->first_row()) down.push_back(static_cast<std::uint32_t>(p));
     if (row >= sim.grid->last_row()) up.push_back(static_cast<std::uint32_t>(p));
   }
@@ -109,11 +115,10 @@ template <int Dim>
 void rebalance(double least_gain, Simulation<Dim>& sim) {
   const Phase phase(sim.phases, PhaseName::rebalance);
   const GridShape shape = make_grid_shape(sim.scene);
-  const bool cubic = shape.stencil == 4;
   const double inverse_cell = 1.0 / shape.cell;
   std::vector<std::int64_t> count(static_cast<std::size_t>(shape.rows), 0);
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
-    ++count[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, cubic, inverse_cell))];
+    ++count[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, shape, inverse_cell))];
   }
   sum(count, sim.communicator);
   const std::vector<double> weights(count.begin(), count.end());
@@ -130,7 +135,7 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
   }
   std::vector<int> destination(sim.particles.size());
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
-    destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, cubic, inverse_cell));
+    destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, shape, inverse_cell));
   }
   redistribute(destination, sim.particles, sim.communicator);
 }

@@ -22,20 +22,7 @@ bool due(std::int64_t beats, std::int64_t beat) {
 template <int Dim>
 std::int64_t record_number(const Simulation<Dim>& sim) {
   const double landed = static_cast<double>(sim.clock.beat) * sim.scene.output.beat;
-  return sim.clock.beat + (sim.clock.time > landed ? 1 : 0);
-}
-
-template <int Dim>
-std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim) {
-  const Scene& scene = sim.scene;
-  if (scene.morphology.every <= 0.0) return nullptr;
-  PixelLayout<Dim> layout;
-  layout.pixel_size = scene.morphology.pixel;
-  for (int a = 0; a < Dim; ++a) {
-    layout.pixels[a] = static_cast<int>(std::lround(scene.domain.size[a] / layout.pixel_size));
-    if (a + 1 < Dim) layout.periodic[a] = scene.domain.periodic[a];
-  }
-  return std::make_unique<PixelGrid<Dim>>(sim.communicator, layout);
+  return sim.clock.beat + (sim.clock.time - landed > 1e-9 * sim.scene.output.beat ? 1 : 0);
 }
 
 void append_counts(const PixelCounts& c, MorphologyRecord& record) {
@@ -76,8 +63,15 @@ void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   for (int a = 0; a < Dim; ++a) sources.position[a] = particles.position[a];
   sources.mass = particles.mass;
   sources.density = particles.density;
-  const PixelScales scales = {initial_density(sim.materials.front()), 2.0 * scene.domain.cell};
+  PixelScales scales = {0.0, 2.0 * scene.domain.cell};
+  for (const Material& m : sim.materials) {
+    scales.density = std::max(scales.density, initial_density(m));
+  }
   const PixelField<Dim> map = deposit<Dim>(sources, values, scales, *recorder.pixels);
+  // The counts are those of all ranks.
+  if (rank(sim.communicator) == 0) {
+    sim.ledger.guards.pixel += map.capped + map.clamped + map.skipped;
+  }
   std::vector<MorphologyRecord> records;
   for (std::size_t f = 0; f < fields; ++f) {
     const MorphologyField& field = scene.morphology.fields[f];
@@ -126,13 +120,27 @@ void write_snapshot_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 }  // namespace
 
 template <int Dim>
-Recorder<Dim> make_recorder(const std::string& folder, bool restarted, const Simulation<Dim>& sim) {
+std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim) {
+  const Scene& scene = sim.scene;
+  if (scene.morphology.every <= 0.0) return nullptr;
+  PixelLayout<Dim> layout;
+  layout.pixel_size = scene.morphology.pixel;
+  for (int a = 0; a < Dim; ++a) {
+    layout.pixels[a] = static_cast<int>(std::lround(scene.domain.size[a] / layout.pixel_size));
+    if (a + 1 < Dim) layout.periodic[a] = scene.domain.periodic[a];
+  }
+  return std::make_unique<PixelGrid<Dim>>(sim.communicator, layout);
+}
+
+template <int Dim>
+Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
+                            std::unique_ptr<PixelGrid<Dim>> pixels, const Simulation<Dim>& sim) {
   Recorder<Dim> recorder;
   recorder.folder = folder;
   recorder.history = std::make_unique<HistoryWriter>(
       folder + "/history.csv", Dim, sim.communicator,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
-  recorder.pixels = make_pixels(sim);
+  recorder.pixels = std::move(pixels);
   recorder.last_checkpoint_step = sim.clock.step;
   return recorder;
 }
@@ -208,8 +216,12 @@ std::uint64_t checksum(const Simulation<Dim>& sim) {
   return total;
 }
 
-template Recorder<2> make_recorder<2>(const std::string&, bool, const Simulation<2>&);
-template Recorder<3> make_recorder<3>(const std::string&, bool, const Simulation<3>&);
+template std::unique_ptr<PixelGrid<2>> make_pixels<2>(const Simulation<2>&);
+template std::unique_ptr<PixelGrid<3>> make_pixels<3>(const Simulation<3>&);
+template Recorder<2> make_recorder<2>(const std::string&, bool, std::unique_ptr<PixelGrid<2>>,
+                                      const Simulation<2>&);
+template Recorder<3> make_recorder<3>(const std::string&, bool, std::unique_ptr<PixelGrid<3>>,
+                                      const Simulation<3>&);
 template void record<2>(bool, Simulation<2>&, Recorder<2>&);
 template void record<3>(bool, Simulation<3>&, Recorder<3>&);
 template void checkpoint_when_due<2>(double, Simulation<2>&, Recorder<2>&);

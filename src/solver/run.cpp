@@ -82,19 +82,23 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
   const Timings timings = final_timings(sim.clock, sim.phases, progress, sim.communicator);
   write_timings(options.folder + "/timings.json", timings, sim.communicator);
   const Ledger& l = sim.ledger;
-  std::vector<std::int64_t> guards = {l.guards.compression, l.guards.sound_speed,
+  std::vector<std::int64_t> guards = {l.guards.compression,   l.guards.sound_speed,
                                       l.guards.wall_crossing, l.guards.temperature,
-                                      l.escaped_particles};
+                                      l.guards.pixel,         l.escaped_particles};
   sum(guards, sim.communicator);
+  std::vector<Int128> escaped = {l.escaped_mass};
+  sum(escaped, sim.communicator);
   if (rank(sim.communicator) != 0) return;
   if (!options.quiet) std::printf("\n%s", timings_table(timings).c_str());
   std::printf(
-      "energy drift %.1e, guards: compression %lld, sound speed %lld, wall %lld, temperature %lld; "
-      "escaped particles %lld; checksum %016llx\n",
+      "energy drift %.1e, guards: compression %lld, sound speed %lld, wall %lld, temperature %lld, "
+      "pixel %lld; "
+      "escaped particles %lld (%.6g %s); checksum %016llx\n",
       energy_status(recorder).drift, static_cast<long long>(guards[0]),
       static_cast<long long>(guards[1]), static_cast<long long>(guards[2]),
       static_cast<long long>(guards[3]), static_cast<long long>(guards[4]),
-      static_cast<unsigned long long>(bits));
+      static_cast<long long>(guards[5]), static_cast<double>(escaped[0]) * mass_quantum(l),
+      Dim == 2 ? "kg/m" : "kg", static_cast<unsigned long long>(bits));
   std::printf("%s at step %lld, time %.6g ns, in %s\n",
               end == RunEnd::finished ? "finished" : "stopped",
               static_cast<long long>(sim.clock.step), sim.clock.time * 1e9, options.folder.c_str());
@@ -135,14 +139,22 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);
+  // The map's rows may not suffice for the ranks, which is better said before anything is removed.
+  std::unique_ptr<PixelGrid<Dim>> pixels = make_pixels(sim);
   // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
   prepare_output_folder(options.folder, options.force, options.continues, communicator);
   on_rank_zero(communicator, [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
-  if (restarted) {
+  const bool ended = sim.clock.time >= scene.time.end ||
+                     (scene.time.max_steps > 0 && sim.clock.step >= scene.time.max_steps);
+  if (options.continues) {
+    remove_checkpoints_after(options.folder, sim.clock.step, communicator);
+  }
+  // A run that is already at its end writes no records again.
+  if (restarted && !ended) {
     remove_morphology_from(options.folder, sim.clock.beat + 1, communicator);
     remove_records_from(options.folder, sim.clock.beat + 1, communicator);
   }
-  Recorder<Dim> recorder = make_recorder(options.folder, restarted, sim);
+  Recorder<Dim> recorder = make_recorder(options.folder, restarted, std::move(pixels), sim);
   progress.first_step = sim.clock.step;
   progress.row_wall = MPI_Wtime();
   progress.row_time = sim.clock.time;

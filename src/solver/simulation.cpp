@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/momentum.hpp"
@@ -54,6 +55,12 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   return sim;
 }
 
+/// Number of integers that run_state() puts into a checkpoint.
+template <int Dim>
+std::size_t run_state_integers(const Simulation<Dim>& sim) {
+  return 4 + save(sim.ledger, MPI_COMM_SELF).size();
+}
+
 template <int Dim>
 void take_report(const StressReport& report, Simulation<Dim>& sim) {
   sim.clock.limit = report.dt_limit;
@@ -88,6 +95,11 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   std::string stored_scene;
   RunState state;
   read_checkpoint<Dim>(path, communicator, stored_scene, state, sim.particles);
+  if (state.integers.size() != run_state_integers(sim)) {
+    throw InputError(path + ": written by another version of this program, its ledger has " +
+                     std::to_string(state.integers.size()) + " numbers instead of " +
+                     std::to_string(run_state_integers(sim)) + "; restart with that version");
+  }
   sim.clock.step = state.step;
   sim.clock.time = state.time;
   sim.clock.allowed = state.last_dt;
@@ -114,7 +126,7 @@ RunState run_state(const Simulation<Dim>& sim) {
   state.last_dt = sim.clock.allowed;
   state.beat = sim.clock.beat;
   state.record = sim.clock.beat + 1;
-  // Between two steps every rank knows only its own particles' limit; the next step needs them all.
+  // Before agree_on_step every rank knows only its own particles' limit; the next step needs all.
   double limit = sim.clock.limit;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MIN, sim.communicator),
             "MPI_Allreduce of the time step");

@@ -14,8 +14,13 @@ namespace {
 constexpr double largest_growth = 1.1;
 constexpr double collapse_share = 1.0e-5;
 
+/// Times closer than this share of a beat are the same.
+constexpr double same_time = 1.0e-9;
+
 double next_target(const Scene& scene, const Clock& clock) {
-  return std::min(static_cast<double>(clock.beat + 1) * scene.output.beat, scene.time.end);
+  const double next_beat = static_cast<double>(clock.beat + 1) * scene.output.beat;
+  const bool before_end = scene.time.end - next_beat > same_time * scene.output.beat;
+  return before_end ? next_beat : scene.time.end;
 }
 
 }  // namespace
@@ -61,7 +66,8 @@ void tick(const Scene& scene, double dt, Clock& clock) {
     return;
   }
   clock.time = target;
-  if (target == static_cast<double>(clock.beat + 1) * scene.output.beat) ++clock.beat;
+  const double next_beat = static_cast<double>(clock.beat + 1) * scene.output.beat;
+  if (std::abs(target - next_beat) <= same_time * scene.output.beat) ++clock.beat;
 }
 
 std::int64_t beats_of(double cadence, double beat) {

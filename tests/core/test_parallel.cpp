@@ -35,7 +35,7 @@ template <class Call>
 std::string text_of_failure(Call&& call) {
   try {
     call();
-  } catch (const SystemError& error) {
+  } catch (const RankError& error) {
     return error.what();
   }
   return "no failure";

@@ -66,6 +66,8 @@ Sample<Dim> prepare(const Case& c, const std::array<int, Dim>& cells) {
   s.materials = {make_material(solid), make_material(fluid)};
   s.settings.thermal = c.thermal;
   s.settings.averaging = c.transfer.averaging > 0.0;
+  s.settings.viscosity = {0.6, 2.25};
+  s.settings.cfl = 0.35;
   s.settings.cell = cell;
   s.settings.inverse_energy_quantum = 0x1p60;
   s.ledger.inverse_energy_quantum = s.settings.inverse_energy_quantum;
@@ -208,8 +210,8 @@ std::uint64_t hash_of(const Sample<Dim>& s) {
     }
   });
   const NodeLedger& l = s.ledger;
-  std::vector<Int128> sums = {l.filter_heat,  l.wall_heat,         l.wall_work,
-                              l.body_work,    s.transfer_heat,     s.report.viscous_heat};
+  std::vector<Int128> sums = {l.filter_heat, l.wall_heat,     l.wall_work,
+                              l.body_work,   s.transfer_heat, s.report.viscous_heat};
   sums.insert(sums.end(), l.body_impulse.begin(), l.body_impulse.end());
   sums.insert(sums.end(), l.wall_impulse.begin(), l.wall_impulse.end());
   for (const std::int64_t word : to_words(sums)) hash.add(static_cast<std::uint64_t>(word));

@@ -38,13 +38,15 @@ Points<Dim> at_rest(const MaterialParameters& material, std::size_t count = 1) {
   return points;
 }
 
-/// Settings with the default viscosity and a cell of 10 um.
+/// Settings with some viscosity, a cell of 10 um and a Courant number of 0.35.
 template <int Dim>
 StressSettings<Dim> settings_of(Thermal thermal, bool averaging = false) {
   StressSettings<Dim> settings;
   settings.thermal = thermal;
   settings.averaging = averaging;
+  settings.viscosity = {0.6, 2.25};
   settings.cell = 1.0e-5;
+  settings.cfl = 0.35;
   settings.inverse_energy_quantum = 0x1p40;
   return settings;
 }

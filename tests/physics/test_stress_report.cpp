@@ -243,6 +243,24 @@ TEST(BadStates, AreCounted) {
   }
 }
 
+// Further than a cell in one step, relative to the grid, in any direction.
+TEST(BadStates, TravelBeyondACell) {
+  const auto moving = [](int axis, double speed) {
+    return report_with(
+        [&](auto& q, std::size_t i) { q.particles.velocity[axis][i] = speed * cell / dt; });
+  };
+  for (const int axis : {0, 1}) {
+    EXPECT_EQ(moving(axis, 1.001).bad, 1);
+    EXPECT_EQ(moving(axis, -1.001).bad, 1);
+    EXPECT_EQ(moving(axis, -0.999).bad, 0);
+  }
+  StressSettings<2> settings = settings_of<2>(Thermal::conserving);
+  settings.grid_velocity = {0.0, -5.0e6};
+  Points<2> points = at_rest<2>(aluminium, 9);
+  for (double& v : points.particles.velocity[1]) v = -5.0e6;
+  EXPECT_EQ(update<2>(materials, settings, dt, points).bad, 0);
+}
+
 // A bad particle does not hide the step of the others.
 TEST(BadStates, LeaveTheStepOfTheOthers) {
   const StressReport good = report_with([](auto&, std::size_t) {});

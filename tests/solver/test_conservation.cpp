@@ -43,6 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"transfer.shape=quadratic", "transfer.averaging=0.5"},
         std::vector<std::string>{"transfer.velocity=flip", "transfer.averaging=1.0",
                                  "transfer.damping=1e8"},
+        std::vector<std::string>{"transfer.velocity=flip"},
         std::vector<std::string>{"thermal=paper"},
         std::vector<std::string>{"material.0.kinematic_share=1.0",
                                  "material.0.plastic_heat=dissipation"},
@@ -81,6 +82,11 @@ TEST(Conservation, EscapedParticlesTakeTheirEnergyAlong) {
   const HistoryRow after = stock(sim);
   EXPECT_LT(after.particles, before.particles);
   EXPECT_EQ(after.particles + sum(sim.ledger.escaped_particles, MPI_COMM_WORLD), before.particles);
+  const double each = 2700.0 * 5e-6 * 5e-6;
+  std::vector<Int128> escaped = {sim.ledger.escaped_mass};
+  sum(escaped, MPI_COMM_WORLD);
+  EXPECT_NEAR(static_cast<double>(escaped[0]) * mass_quantum(sim.ledger),
+              each * static_cast<double>(before.particles - after.particles), 1e-12 * each * 1e4);
   EXPECT_GT(after.escaped, 0.4 * before.total);
   EXPECT_NEAR(after.total / before.total, 1.0, 1e-13);
 }

@@ -22,7 +22,13 @@ class StateError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A library or the operating system failed (MPI, PETSc, HDF5, disk).
+/// A library failed on this rank, and the others may not know: it ends the whole program.
+class RankError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A library or the operating system failed (HDF5, disk). Known to every rank.
 class SystemError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

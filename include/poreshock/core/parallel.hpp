@@ -25,9 +25,9 @@ int rank(MPI_Comm communicator);
 /// Number of ranks. Not collective.
 int size(MPI_Comm communicator);
 
-/// Throws SystemError with the text of a PETSc error code when it is not zero. Not collective.
+/// Throws RankError with the text of a PETSc error code when it is not zero. Not collective.
 void check_petsc(int code, const char* what);
-/// Throws SystemError with the text of an MPI error code when it is not MPI_SUCCESS. Not
+/// Throws RankError with the text of an MPI error code when it is not MPI_SUCCESS. Not
 /// collective.
 void check_mpi(int code, const char* what);
 

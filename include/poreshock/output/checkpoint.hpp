@@ -60,6 +60,10 @@ int checkpoint_dimension(const std::string& path, MPI_Comm communicator);
 /// is good. Collective.
 std::string latest_checkpoint(const std::string& folder, MPI_Comm communicator, std::string& note);
 
+/// Removes the checkpoints of steps after `step`, which a run restarted there is about to compute
+/// again. Rank 0 works. Collective.
+void remove_checkpoints_after(const std::string& folder, std::int64_t step, MPI_Comm communicator);
+
 /// Removes all but the newest `keep` checkpoints of a folder (at least one is kept). Rank 0 works.
 /// Collective.
 void prune_checkpoints(const std::string& folder, int keep, MPI_Comm communicator);

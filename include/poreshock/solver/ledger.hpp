@@ -15,6 +15,7 @@ struct Guards {
   std::int64_t sound_speed = 0;    ///< sound speed floored
   std::int64_t wall_crossing = 0;  ///< particle put back onto a wall
   std::int64_t temperature = 0;    ///< temperature floored in output
+  std::int64_t pixel = 0;          ///< particle cut, held or left out in a pixel map
 };
 
 /// Cumulative sums of this rank since the start; only the sum over all ranks has a meaning.
@@ -25,10 +26,16 @@ struct Ledger {
   Int128 viscous_heat = 0;
   Int128 transfer_heat = 0;  ///< filter heat of grid to particles
   Int128 escaped_energy = 0;
+  Int128 escaped_mass = 0;  ///< quanta of mass, see mass_quantum
   std::array<Int128, 3> escaped_momentum{};
   std::int64_t escaped_particles = 0;
   Guards guards;
 };
+
+/// Quantum of mass, kg: a power of two like the other two, and made of them.
+inline double mass_quantum(const Ledger& ledger) {
+  return ledger.momentum_quantum * ledger.momentum_quantum / ledger.energy_quantum;
+}
 
 /// Quanta from the heaviest particle and the velocities of the scene: fine enough that rounding
 /// stays below 1e-13 of the total, coarse enough that no sum overflows. Collective.

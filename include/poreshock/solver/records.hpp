@@ -23,9 +23,15 @@ struct Recorder {
   std::int64_t last_checkpoint_step = -1;
 };
 
-/// Opens the history and the pixel grid, after the folder was prepared. Collective.
+/// The pixel grid of the scene's morphology; none without. Throws InputError when the map has fewer
+/// rows than there are ranks. Collective.
 template <int Dim>
-Recorder<Dim> make_recorder(const std::string& folder, bool restarted, const Simulation<Dim>& sim);
+std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim);
+
+/// Opens the history, after the folder was prepared. Collective.
+template <int Dim>
+Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
+                            std::unique_ptr<PixelGrid<Dim>> pixels, const Simulation<Dim>& sim);
 
 /// Writes what is due at the beat the clock is on (all of it at the start and the end). Collective.
 template <int Dim>

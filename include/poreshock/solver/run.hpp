@@ -15,7 +15,7 @@ struct RunOptions {
   std::string restart;      ///< checkpoint file; empty = from the start
   bool continues = false;   ///< the checkpoint lies in `folder`, whose records go on
   bool force = false;       ///< replace our files in an existing folder
-  double wall_limit = 0.0;  ///< s, 0 = none: checkpoint and stop before it
+  double wall_limit = 0.0;  ///< s, 0 = none: checkpoint and stop after it
   bool quiet = false;       ///< no progress rows
 };
 
