@@ -34,8 +34,8 @@ void check_petsc(int code, const char* what) {
   const char* text = nullptr;
   PetscErrorMessage(static_cast<PetscErrorCode>(code), &text, nullptr);
   throw RankError(std::string("PETSc failed in ") + what + ": " +
-                    (text != nullptr ? text : "unknown error") + " (code " + std::to_string(code) +
-                    ")");
+                  (text != nullptr ? text : "unknown error") + " (code " + std::to_string(code) +
+                  ")");
 }
 
 void check_mpi(int code, const char* what) {
