@@ -41,6 +41,7 @@ void pack(const Particles<Dim>& source, const std::vector<std::uint32_t>& indice
 
 template <int Dim>
 void unpack(const std::byte* buffer, std::size_t count, Particles<Dim>& particles) {
+  if (count == 0) return;  // an empty buffer may be a null pointer
   const std::size_t before = particles.size();
   resize(particles, before + count);
   for_each_column(particles, [&](std::string_view, int, auto& column) {
