@@ -63,6 +63,13 @@ double affine_inertia(const Transfer& transfer, double cell) {
   return cell * cell / (transfer.shape == ShapeFunction::cubic ? 3.0 : 4.0);
 }
 
+void set_quanta(double energy, double momentum, Ledger& ledger) {
+  ledger.energy_quantum = energy;
+  ledger.momentum_quantum = momentum;
+  ledger.nodes.inverse_energy_quantum = 1.0 / energy;
+  ledger.nodes.inverse_momentum_quantum = 1.0 / momentum;
+}
+
 template <int Dim>
 Ledger make_ledger(const Scene& scene, const std::vector<Material>& materials,
                    const Particles<Dim>& particles, MPI_Comm communicator) {
@@ -77,10 +84,8 @@ Ledger make_ledger(const Scene& scene, const std::vector<Material>& materials,
     for (const double v : body.velocity) speed = std::max(speed, std::abs(v));
   }
   Ledger ledger;
-  ledger.energy_quantum = power_of_two_below(heaviest * speed * speed) / quanta_per_particle;
-  ledger.momentum_quantum = power_of_two_below(heaviest * speed) / quanta_per_particle;
-  ledger.nodes.inverse_energy_quantum = 1.0 / ledger.energy_quantum;
-  ledger.nodes.inverse_momentum_quantum = 1.0 / ledger.momentum_quantum;
+  set_quanta(power_of_two_below(heaviest * speed * speed) / quanta_per_particle,
+             power_of_two_below(heaviest * speed) / quanta_per_particle, ledger);
   return ledger;
 }
 

@@ -29,6 +29,11 @@ EnergyStatus energy_status(const Recorder<Dim>& recorder) {
   return {row.kinetic, row.internal, first != 0.0 ? row.total / first - 1.0 : 0.0};
 }
 
+/// True when nothing is left to compute. Not collective.
+bool at_end(const TimeControl& limits, const Clock& clock) {
+  return clock.time >= limits.end || (limits.max_steps > 0 && clock.step >= limits.max_steps);
+}
+
 /// Prints a row when the last one is old enough; rank 0's clock decides. Collective.
 template <int Dim>
 void show_progress(bool quiet, const Simulation<Dim>& sim, const Recorder<Dim>& recorder,
@@ -111,8 +116,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
   const TimeControl& limits = sim.scene.time;
   if (options.restart.empty()) record(false, sim, recorder);
   bool stop_asked = synchronise(options, progress, sim);
-  while (sim.clock.time < limits.end &&
-         (limits.max_steps == 0 || sim.clock.step < limits.max_steps)) {
+  while (!at_end(limits, sim.clock)) {
     if (stop_asked) {
       const std::string path = checkpoint_now(sim, recorder);
       if (rank(sim.communicator) == 0) {
@@ -121,8 +125,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
       return RunEnd::stopped;
     }
     stop_asked = step(options, sim, progress);
-    const bool last = sim.clock.time >= limits.end ||
-                      (limits.max_steps > 0 && sim.clock.step >= limits.max_steps);
+    const bool last = at_end(limits, sim.clock);
     if (sim.clock.on_beat || last) record(last, sim, recorder);
     checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);
     show_progress(options.quiet, sim, recorder, progress);
@@ -144,13 +147,11 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
   prepare_output_folder(options.folder, options.force, options.continues, communicator);
   on_rank_zero(communicator, [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
-  const bool ended = sim.clock.time >= scene.time.end ||
-                     (scene.time.max_steps > 0 && sim.clock.step >= scene.time.max_steps);
   if (options.continues) {
     remove_checkpoints_after(options.folder, sim.clock.step, communicator);
   }
   // A run that is already at its end writes no records again.
-  if (restarted && !ended) {
+  if (restarted && !at_end(scene.time, sim.clock)) {
     remove_morphology_from(options.folder, sim.clock.beat + 1, communicator);
     remove_records_from(options.folder, sim.clock.beat + 1, communicator);
   }

@@ -106,12 +106,8 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.clock.beat = state.beat;
   sim.clock.limit = std::bit_cast<double>(state.integers.at(0));
   sim.clock.first_limit = std::bit_cast<double>(state.integers.at(1));
-  const double energy_quantum = std::bit_cast<double>(state.integers.at(2));
-  const double momentum_quantum = std::bit_cast<double>(state.integers.at(3));
-  sim.ledger.energy_quantum = energy_quantum;
-  sim.ledger.momentum_quantum = momentum_quantum;
-  sim.ledger.nodes.inverse_energy_quantum = 1.0 / energy_quantum;
-  sim.ledger.nodes.inverse_momentum_quantum = 1.0 / momentum_quantum;
+  set_quanta(std::bit_cast<double>(state.integers.at(2)),
+             std::bit_cast<double>(state.integers.at(3)), sim.ledger);
   restore({state.integers.begin() + 4, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   rebalance(0.0, sim);

@@ -37,6 +37,9 @@ inline double mass_quantum(const Ledger& ledger) {
   return ledger.momentum_quantum * ledger.momentum_quantum / ledger.energy_quantum;
 }
 
+/// Sets the quanta of energy (J) and momentum (kg m/s), powers of two, everywhere they stand.
+void set_quanta(double energy, double momentum, Ledger& ledger);
+
 /// Quanta from the heaviest particle and the velocities of the scene: fine enough that rounding
 /// stays below 1e-13 of the total, coarse enough that no sum overflows. Collective.
 template <int Dim>
