@@ -5,7 +5,7 @@
 namespace poreshock {
 
 template <int Dim>
-void integrate_momentum(const Vector<Dim>& body_force, bool affine, double dt, SlabGrid& grid,
+void integrate_momentum(const Vector<Dim>& body_force, bool projected, double dt, SlabGrid& grid,
                         NodeLedger& ledger) {
   using Sum = SumLane<Dim>;
   using Motion = MotionLane<Dim>;
@@ -29,11 +29,11 @@ void integrate_momentum(const Vector<Dim>& body_force, bool affine, double dt, S
         motion[Motion::end_velocity + a] = end;
         start2 += start * start;
       }
-      const double lost = affine ? sum[Sum::kinetic] * inverse_mass - 0.5 * start2 : 0.0;
+      const double lost = projected ? sum[Sum::kinetic] * inverse_mass - 0.5 * start2 : 0.0;
       motion[Motion::heat] = lost;
       motion[Motion::mass] = mass;
       nodes[i] = motion;
-      if (owned && affine) {
+      if (owned && projected) {
         ledger.filter_heat += quantise(mass * lost, ledger.inverse_energy_quantum);
       }
     }

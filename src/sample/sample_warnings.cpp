@@ -27,6 +27,21 @@ void warn_radius(const Scene& scene, const SampleReport& report,
                      " whole voids make the porosity asked for.");
 }
 
+/// Distance in cells below which surfaces feel each other through the grid, and the shape's name.
+std::pair<double, std::string> closing_distance(ShapeFunction shape) {
+  switch (shape) {
+    case ShapeFunction::linear:
+      return {1.5, "linear"};
+    case ShapeFunction::gimp:
+      return {2.0, "gimp"};
+    case ShapeFunction::quadratic:
+      return {2.5, "quadratic"};
+    case ShapeFunction::cubic:
+      break;
+  }
+  return {3.5, "cubic"};
+}
+
 void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::string>& warnings) {
   // Overlapping voids have no ligament to keep.
   if (scene.sample.overlap) return;
@@ -38,12 +53,10 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
                        " particles; below 3 it may break numerically. Set sample.ligament to " +
                        length_text(3.0 * spacing) + " or more, or domain.cell finer.");
   }
-  const bool cubic = scene.transfer.shape == ShapeFunction::cubic;
-  const double reach = cubic ? 3.5 : 2.5;
+  const auto [reach, shape] = closing_distance(scene.transfer.shape);
   if (report.least_gap < reach * scene.domain.cell) {
     warnings.push_back(thinnest + ", or " + short_number(report.least_gap / scene.domain.cell) +
-                       " cells; below " + short_number(reach) + " cells the " +
-                       (cubic ? "cubic" : "quadratic") +
+                       " cells; below " + short_number(reach) + " cells the " + shape +
                        " shape function joins what lies on its two sides, and gaps close "
                        "numerically before the surfaces meet. Set sample.ligament to " +
                        length_text(reach * scene.domain.cell) + " or more, or domain.cell finer.");

@@ -15,6 +15,7 @@ namespace {
 constexpr double tolerance = 1e-9;
 constexpr double most_cells = std::numeric_limits<int>::max();
 constexpr double greatest_void_fraction = 0.65;
+constexpr double greatest_hat_averaging = 0.5;
 constexpr int least_lateral_cells = 4;
 constexpr int least_shock_cells = 8;
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
@@ -188,6 +189,56 @@ void check_region(const Region& region, int dimension, const std::string& path, 
   }
 }
 
+/// Combinations that cannot work, with the reason.
+void check_scheme(const Transfer& transfer, Report& report) {
+  const bool linear = transfer.shape == ShapeFunction::linear;
+  const bool spline =
+      transfer.shape == ShapeFunction::quadratic || transfer.shape == ShapeFunction::cubic;
+  const bool flip = transfer.velocity == VelocityTransfer::flip;
+  const bool filtered = transfer.velocity == VelocityTransfer::fmpm;
+  if (!spline && !flip && !(filtered && !linear)) {
+    add_problem("transfer.velocity",
+                std::string("found a transfer that needs B-splines, allowed \"flip\"") +
+                    (linear ? "" : " or \"fmpm\"") + " with transfer.shape = \"" +
+                    (linear ? "linear" : "gimp") + "\"",
+                report);
+  }
+  // Slopes that jump where a particle crosses a cell feed what the average hides, and it grows.
+  if (!spline && transfer.averaging > greatest_hat_averaging) {
+    add_problem("transfer.averaging",
+                "found " + plain_number(transfer.averaging) +
+                    ", allowed up to 0.5 with transfer.shape = \"linear\" or \"gimp\": more is "
+                    "unstable when material crosses cells",
+                report);
+  }
+  // On B-splines it gains energy on collapsing voids until the step collapses.
+  if (transfer.update == VelocityUpdate::musl && (!flip || spline)) {
+    add_problem("transfer.update",
+                "found \"musl\", allowed \"usl\" unless transfer.velocity = \"flip\" and "
+                "transfer.shape = \"linear\" or \"gimp\"",
+                report);
+  }
+  if (transfer.update == VelocityUpdate::musl && transfer.averaging > 0.0) {
+    add_problem("transfer.update",
+                "found \"musl\", allowed \"usl\" with averaged dilatation: both replace the "
+                "dilatation of the grid",
+                report);
+  }
+}
+
+/// The filter of FMPM overshoots at large steps.
+void check_filter(const Scene& scene, Report& report) {
+  const Transfer& transfer = scene.transfer;
+  if (!good(report, {"transfer.order", "time.cfl"})) return;
+  if (transfer.velocity != VelocityTransfer::fmpm) return;
+  const double most = transfer.order <= 2 ? 0.7 : (transfer.order == 3 ? 0.6 : 0.5);
+  if (scene.time.cfl <= most) return;
+  add_problem("time.cfl",
+              "found " + plain_number(scene.time.cfl) + ", allowed up to " + plain_number(most) +
+                  " with transfer.velocity = \"fmpm\" of order " + std::to_string(transfer.order),
+              report);
+}
+
 void check_transfer(const Scene& scene, Report& report) {
   const Transfer& transfer = scene.transfer;
   if (!good(report, {"transfer.velocity", "transfer.damping"})) return;
@@ -197,6 +248,9 @@ void check_transfer(const Scene& scene, Report& report) {
                     " 1/s, allowed 0 unless transfer.velocity = \"flip\"",
                 report);
   }
+  if (!good(report, {"transfer.shape", "transfer.update", "transfer.averaging"})) return;
+  check_scheme(transfer, report);
+  check_filter(scene, report);
 }
 
 void check_beat(double value, const char* path, bool may_be_zero, double beat, Report& report) {
@@ -259,6 +313,9 @@ void resolve(Scene& scene, const Report& report) {
     }
   }
   Sample& sample = scene.sample;
+  if (sample.particles_per_cell > 0) {
+    scene.transfer.half_length = 0.5 / static_cast<double>(sample.particles_per_cell);
+  }
   if (sample.porosity_definition == PorosityDefinition::distension_minus_1) {
     sample.porosity = sample.porosity / (1.0 + sample.porosity);
     sample.porosity_definition = PorosityDefinition::void_fraction;

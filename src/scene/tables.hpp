@@ -200,14 +200,32 @@ void visit_body_force(Visitor& visitor, Scene& scene) {
 
 template <typename Visitor>
 void visit_transfer(Visitor& visitor, Transfer& transfer) {
-  const Names<ShapeFunction> shapes{{"quadratic", ShapeFunction::quadratic},
+  const Names<ShapeFunction> shapes{{"linear", ShapeFunction::linear},
+                                    {"gimp", ShapeFunction::gimp},
+                                    {"quadratic", ShapeFunction::quadratic},
                                     {"cubic", ShapeFunction::cubic}};
-  const Names<VelocityTransfer> transfers{{"flip", VelocityTransfer::flip},
-                                          {"apic", VelocityTransfer::apic}};
-  choice(visitor, "shape", transfer.shape, shapes, {"B-spline between particles and grid"});
+  const Names<VelocityTransfer> transfers{{"pic", VelocityTransfer::pic},
+                                          {"flip", VelocityTransfer::flip},
+                                          {"apic", VelocityTransfer::apic},
+                                          {"fmpm", VelocityTransfer::fmpm}};
+  const Names<VelocityUpdate> updates{{"usl", VelocityUpdate::usl}, {"musl", VelocityUpdate::musl}};
+  bool lineage = false;
+  const Names<bool> presets{{"none", false}, {"lineage", true}};
+  choice(visitor, "preset", lineage, presets,
+         {"lineage: gimp, flip, usl, no averaging by default, the common scheme of 2008-2010"});
+  if (lineage) {
+    visitor.fallback(transfer.shape, ShapeFunction::gimp);
+    visitor.fallback(transfer.velocity, VelocityTransfer::flip);
+  }
+  choice(visitor, "shape", transfer.shape, shapes,
+         {"between particles and grid: hat, uniform GIMP, quadratic or cubic B-spline"});
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
   visitor.number("damping", transfer.damping,
                  {not_negative, "1/s", "of FLIP velocity noise; with flip only"});
+  integer(visitor, "order", transfer.order,
+          {{.low = 2.0, .high = 8.0}, "", "of the filter of fmpm; higher filters less"});
+  choice(visitor, "update", transfer.update, updates,
+         {"density and rotation from the grid velocity, or from the particles' (musl, flip only)"});
   visitor.number("averaging", transfer.averaging, {share, "", "share of the averaged dilatation"});
 }
 

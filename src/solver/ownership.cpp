@@ -13,17 +13,10 @@ namespace {
 
 constexpr std::int64_t storage_interval = 20;
 
-/// Lowest stencil node along one axis of `nodes` nodes; the one place where the scene's shape
-/// decides it. A coordinate that rounds to the far end of the domain belongs to the last cell.
-inline int stencil_base(bool cubic, double s, int nodes) {
-  return cubic ? std::min(CubicSpline::base(s), nodes - 4) : QuadraticSpline::base(s);
-}
-
 template <int Dim>
 int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shape,
            double inverse_cell) {
-  return stencil_base(shape.stencil == 4, particles.position[Dim - 1][p] * inverse_cell,
-                      shape.rows);
+  return stencil_base(shape.stencil, particles.position[Dim - 1][p] * inverse_cell, shape.rows);
 }
 
 /// Brings one coordinate back into the domain where its sides say so; false when it has escaped.
@@ -66,7 +59,6 @@ template <int Dim>
 void sort_particles(Simulation<Dim>& sim) {
   const Phase phase(sim.phases, PhaseName::sort);
   const GridShape& shape = sim.grid->shape();
-  const bool cubic = shape.stencil == 4;
   const double inverse_cell = 1.0 / shape.cell;
   Particles<Dim>& particles = sim.particles;
   const std::size_t cells =
@@ -77,10 +69,10 @@ void sort_particles(Simulation<Dim>& sim) {
     int index = row_of<Dim>(particles, p, shape, inverse_cell) - sim.grid->first_row();
     if constexpr (Dim == 3) {
       index = index * shape.nodes[1] +
-              stencil_base(cubic, particles.position[1][p] * inverse_cell, shape.nodes[1]);
+              stencil_base(shape.stencil, particles.position[1][p] * inverse_cell, shape.nodes[1]);
     }
     index = index * shape.nodes[0] +
-            stencil_base(cubic, particles.position[0][p] * inverse_cell, shape.nodes[0]);
+            stencil_base(shape.stencil, particles.position[0][p] * inverse_cell, shape.nodes[0]);
     cell[p] = static_cast<std::uint32_t>(index);
   }
   sort_by_cell(cell, cells, particles.grain, particles.id, sim.cells);

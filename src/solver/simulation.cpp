@@ -11,6 +11,9 @@
 #include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
+#include "poreshock/transfer/remap.hpp"
+#include "poreshock/transfer/shape.hpp"
+#include "poreshock/transfer/velocity_filter.hpp"
 
 namespace poreshock {
 
@@ -68,6 +71,22 @@ void take_report(const StressReport& report, Simulation<Dim>& sim) {
   sim.ledger.guards.compression += report.compression_guard;
   sim.ledger.guards.sound_speed += report.sound_speed_guard;
   sim.ledger.viscous_heat += report.viscous_heat;
+}
+
+/// MUSL: the velocity that the updated particles give the nodes, under the same walls. Its impulses
+/// move nothing and belong to no ledger.
+template <int Dim>
+void update_from_particles(double dt, Simulation<Dim>& sim) {
+  SlabGrid& grid = *sim.grid;
+  const Vector<Dim>& grid_velocity = sim.stress_settings.grid_velocity;
+  remap_velocity(sim.particles, sim.cells, sim.scene.transfer, grid);
+  grid.exchange();
+  NodeLedger scratch;
+  integrate_momentum<Dim>(Vector<Dim>::Zero(), false, 0.0, grid, scratch);
+  apply_boundaries<Dim>(sim.scene.boundary, grid_velocity, grid, scratch);
+  grid.fill_periodic_images();
+  gather_remapped(grid, sim.cells, sim.scene.transfer, grid_velocity, dt, sim.particles,
+                  sim.step_data);
 }
 
 }  // namespace
@@ -139,9 +158,13 @@ template <int Dim>
 void advance(Simulation<Dim>& sim, double dt) {
   const Transfer& transfer = sim.scene.transfer;
   const bool averaging = transfer.averaging > 0.0;
-  const bool affine = transfer.velocity == VelocityTransfer::apic;
   sort_particles(sim);
   sim.step_data.resize(sim.particles.size(), averaging);
+  if (transfer.velocity == VelocityTransfer::fmpm) {
+    const Phase phase(sim.phases, PhaseName::filter);
+    filter_velocity(sim.cells, transfer, sim.ledger.nodes.inverse_energy_quantum, *sim.grid,
+                    sim.particles, sim.step_data, sim.ledger.transfer_heat);
+  }
   if (averaging) {
     const Phase phase(sim.phases, PhaseName::average);
     average_pressure(sim.particles, sim.cells, transfer, *sim.averages, sim.step_data);
@@ -157,7 +180,7 @@ void advance(Simulation<Dim>& sim, double dt) {
   {
     const Phase phase(sim.phases, PhaseName::grid_update);
     NodeLedger& ledger = sim.ledger.nodes;
-    integrate_momentum<Dim>(sim.body_force, affine, dt, *sim.grid, ledger);
+    integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, *sim.grid, ledger);
     apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, *sim.grid, ledger);
     if (sim.body_force.squaredNorm() > 0.0) {
       add_body_work<Dim>(sim.body_force, dt, *sim.grid, ledger);
@@ -173,6 +196,10 @@ void advance(Simulation<Dim>& sim, double dt) {
     grid_to_particles(*sim.grid, sim.cells, transfer, sim.stress_settings.grid_velocity, dt,
                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
                       sim.ledger.transfer_heat);
+  }
+  if (transfer.update == VelocityUpdate::musl) {
+    const Phase phase(sim.phases, PhaseName::remap);
+    update_from_particles(dt, sim);
   }
   const Phase phase(sim.phases, PhaseName::stress);
   StressReport report;

@@ -7,16 +7,6 @@ namespace poreshock {
 
 namespace {
 
-template <int Dim, class Spline>
-inline double node_weight(const Stencil<Dim, Spline>& s, int n) {
-  constexpr int w = Spline::width;
-  if constexpr (Dim == 2) {
-    return s.axis[0].value[n % w] * s.axis[1].value[n / w];
-  } else {
-    return s.axis[0].value[n % w] * s.axis[1].value[(n / w) % w] * s.axis[2].value[n / (w * w)];
-  }
-}
-
 /// Turns sums of volume x quantity into averages; empty nodes stay zero. Fills periodic images.
 void divide_by_volume(SlabGrid& averages) {
   for (int row = averages.first_row(); row < averages.node_end(); ++row) {
@@ -29,20 +19,11 @@ void divide_by_volume(SlabGrid& averages) {
   averages.fill_periodic_images();
 }
 
-template <int Dim, class Spline>
-Lanes interpolate(const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-  Lanes value{};
-  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-    value += node_weight<Dim, Spline>(stencil, n) * nodes[n];
-  }
-  return value;
-}
-
 template <int Dim, class Spline, class Quantities>
-void scatter_averages(const Particles<Dim>& particles, const CellOrder& cells,
+void scatter_averages(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
                       Quantities&& quantities, SlabGrid& averages) {
-  scatter<Dim, Spline>(
-      particles, cells,
+  scatter<Dim>(
+      spline, particles, cells,
       [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
         const double volume = particles.mass[p] / particles.density[p];
         const Lanes q = volume * quantities(p);
@@ -56,65 +37,58 @@ void scatter_averages(const Particles<Dim>& particles, const CellOrder& cells,
 }
 
 template <int Dim, class Spline>
-void pressure_sweeps(const Particles<Dim>& particles, const CellOrder& cells, double share,
-                     SlabGrid& averages, StepData<Dim>& step) {
+void pressure_sweeps(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+                     double share, SlabGrid& averages, StepData<Dim>& step) {
   const auto total = [&](std::uint32_t p) {
     return particles.pressure[p] + particles.viscous_pressure[p];
   };
-  scatter_averages<Dim, Spline>(
-      particles, cells,
+  scatter_averages<Dim>(
+      spline, particles, cells,
       [&](std::uint32_t p) {
         return Lanes{1.0, total(p)};
       },
       averages);
-  gather<Dim, Spline>(
-      particles, cells, averages,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-        const double average = interpolate<Dim, Spline>(stencil, nodes)[AverageLane::pressure];
-        step.averaged_pressure[p] = (1.0 - share) * total(p) + share * average;
-      });
+  gather<Dim>(spline, particles, cells, averages,
+              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+                const double average =
+                    interpolate<Dim, Spline>(stencil, nodes)[AverageLane::pressure];
+                step.averaged_pressure[p] = (1.0 - share) * total(p) + share * average;
+              });
 }
 
 template <int Dim, class Spline>
-void dilatation_sweeps(const Particles<Dim>& particles, const CellOrder& cells, double share,
-                       const SlabGrid& grid, SlabGrid& averages, StepData<Dim>& step) {
+void dilatation_sweeps(const Spline& spline, const Particles<Dim>& particles,
+                       const CellOrder& cells, double share, const SlabGrid& grid,
+                       SlabGrid& averages, StepData<Dim>& step) {
   using Lane = MotionLane<Dim>;
   const double inverse_cell = 1.0 / grid.shape().cell;
-  gather<Dim, Spline>(
-      particles, cells, grid,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& s, const Lanes* nodes) {
-        constexpr int w = Spline::width;
-        double end = 0.0, start = 0.0;
-        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-          for (int a = 0; a < Dim; ++a) {
-            double slope = 1.0;
-            for (int b = 0; b < Dim; ++b) {
-              const int i =
-                  b == 0 ? n % w : (b == 1 && Dim == 3 ? (n / w) % w : n / (Dim == 3 ? w * w : w));
-              slope *= a == b ? s.axis[b].slope[i] : s.axis[b].value[i];
-            }
-            end += slope * nodes[n][Lane::end_velocity + a];
-            start += slope * nodes[n][Lane::start_velocity + a];
-          }
-        }
-        step.dilatation_end[p] = end * inverse_cell;
-        step.dilatation_mid[p] = 0.5 * (start + end) * inverse_cell;
-      });
-  scatter_averages<Dim, Spline>(
-      particles, cells,
+  gather<Dim>(spline, particles, cells, grid,
+              [&](std::uint32_t p, const Stencil<Dim, Spline>& s, const Lanes* nodes) {
+                double end = 0.0, start = 0.0;
+                for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+                  for (int a = 0; a < Dim; ++a) {
+                    const double slope = node_slope<Dim, Spline>(s, n, a);
+                    end += slope * nodes[n][Lane::end_velocity + a];
+                    start += slope * nodes[n][Lane::start_velocity + a];
+                  }
+                }
+                step.dilatation_end[p] = end * inverse_cell;
+                step.dilatation_mid[p] = 0.5 * (start + end) * inverse_cell;
+              });
+  scatter_averages<Dim>(
+      spline, particles, cells,
       [&](std::uint32_t p) {
         return Lanes{1.0, 0.0, step.dilatation_end[p], step.dilatation_mid[p]};
       },
       averages);
-  gather<Dim, Spline>(
-      particles, cells, averages,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-        const Lanes average = interpolate<Dim, Spline>(stencil, nodes);
-        step.dilatation_end[p] =
-            (1.0 - share) * step.dilatation_end[p] + share * average[AverageLane::end];
-        step.dilatation_mid[p] =
-            (1.0 - share) * step.dilatation_mid[p] + share * average[AverageLane::mid];
-      });
+  gather<Dim>(spline, particles, cells, averages,
+              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+                const Lanes average = interpolate<Dim, Spline>(stencil, nodes);
+                step.dilatation_end[p] =
+                    (1.0 - share) * step.dilatation_end[p] + share * average[AverageLane::end];
+                step.dilatation_mid[p] =
+                    (1.0 - share) * step.dilatation_mid[p] + share * average[AverageLane::mid];
+              });
 }
 
 }  // namespace
@@ -122,20 +96,18 @@ void dilatation_sweeps(const Particles<Dim>& particles, const CellOrder& cells, 
 template <int Dim>
 void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
                       const Transfer& transfer, SlabGrid& averages, StepData<Dim>& step) {
-  transfer.shape == ShapeFunction::cubic
-      ? pressure_sweeps<Dim, CubicSpline>(particles, cells, transfer.averaging, averages, step)
-      : pressure_sweeps<Dim, QuadraticSpline>(particles, cells, transfer.averaging, averages, step);
+  with_shape(transfer, [&](const auto& spline) {
+    pressure_sweeps<Dim>(spline, particles, cells, transfer.averaging, averages, step);
+  });
 }
 
 template <int Dim>
 void average_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
                         const Transfer& transfer, const SlabGrid& grid, SlabGrid& averages,
                         StepData<Dim>& step) {
-  transfer.shape == ShapeFunction::cubic
-      ? dilatation_sweeps<Dim, CubicSpline>(particles, cells, transfer.averaging, grid, averages,
-                                            step)
-      : dilatation_sweeps<Dim, QuadraticSpline>(particles, cells, transfer.averaging, grid,
-                                                averages, step);
+  with_shape(transfer, [&](const auto& spline) {
+    dilatation_sweeps<Dim>(spline, particles, cells, transfer.averaging, grid, averages, step);
+  });
 }
 
 template void average_pressure<2>(const Particles<2>&, const CellOrder&, const Transfer&, SlabGrid&,

@@ -81,6 +81,18 @@ inline double apply_apic(const Moments<Dim>& m, double cell, std::uint32_t p,
   return m.value[Lane::kinetic] - 0.5 * (kept + Spline::inverse_inertia * spin);
 }
 
+/// Velocity by PIC; returns the kinetic energy per mass the interpolation loses.
+template <int Dim>
+inline double apply_pic(const Moments<Dim>& m, std::uint32_t p, Particles<Dim>& particles) {
+  double kept = 0.0;
+  for (int a = 0; a < Dim; ++a) {
+    const double v = m.value[MotionLane<Dim>::end_velocity + a];
+    particles.velocity[a][p] = v;
+    kept += v * v;
+  }
+  return m.value[MotionLane<Dim>::kinetic] - 0.5 * kept;
+}
+
 /// Velocity by FLIP with damping towards the grid; returns the kinetic energy per mass it loses.
 template <int Dim>
 inline double apply_flip(const Moments<Dim>& m, double damped, std::uint32_t p,
@@ -127,27 +139,52 @@ inline void store_gradients(const Moments<Dim>& m, double inverse_cell, std::uin
   }
 }
 
-template <int Dim, class Spline, bool Affine>
-void sweep(const SlabGrid& grid, const CellOrder& cells, double damped,
-           const Vector<Dim>& grid_velocity, double dt, double inverse_quantum,
-           Particles<Dim>& particles, StepData<Dim>& step, Int128& filter_heat) {
+template <int Dim, VelocityTransfer Velocity, class Spline>
+inline double update_velocity(const Moments<Dim>& m, double cell, double damped, std::uint32_t p,
+                              Particles<Dim>& particles) {
+  if constexpr (Velocity == VelocityTransfer::apic) {
+    return apply_apic<Dim, Spline>(m, cell, p, particles);
+  } else if constexpr (Velocity == VelocityTransfer::pic) {
+    return apply_pic<Dim>(m, p, particles);
+  } else {
+    return apply_flip<Dim>(m, damped, p, particles);
+  }
+}
+
+/// What the sweep needs besides particles and nodes.
+template <int Dim>
+struct Motion {
+  double damped;
+  Vector<Dim> grid_velocity;
+  double dt, inverse_quantum;
+};
+
+template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
+void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
+           const Motion<Dim>& motion, Particles<Dim>& particles, StepData<Dim>& step,
+           Int128& filter_heat) {
   using Lane = MotionLane<Dim>;
   const double cell = grid.shape().cell;
   const double inverse_cell = 1.0 / cell;
   Int128 heat_sum = 0;
-  gather<Dim, Spline>(
-      particles, cells, grid,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-        const Moments<Dim> m = moments<Spline, Affine>(stencil, nodes);
-        const double lost = Affine ? apply_apic<Dim, Spline>(m, cell, p, particles)
-                                   : apply_flip<Dim>(m, damped, p, particles);
-        for (int a = 0; a < Dim; ++a) {
-          particles.position[a][p] += dt * (m.value[Lane::end_velocity + a] - grid_velocity[a]);
-        }
-        store_gradients<Dim>(m, inverse_cell, p, step);
-        step.heat[p] = m.value[Lane::heat] + lost;
-        heat_sum += quantise(particles.mass[p] * lost, inverse_quantum);
-      });
+  gather<Dim>(spline, particles, cells, grid,
+              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+                const Moments<Dim> m =
+                    moments<Spline, Velocity == VelocityTransfer::apic>(stencil, nodes);
+                const double lost =
+                    update_velocity<Dim, Velocity, Spline>(m, cell, motion.damped, p, particles);
+                for (int a = 0; a < Dim; ++a) {
+                  const double v = m.value[Lane::end_velocity + a];
+                  if constexpr (Update == VelocityUpdate::musl) {
+                    step.transport[a][p] = v;
+                  } else {
+                    particles.position[a][p] += motion.dt * (v - motion.grid_velocity[a]);
+                  }
+                }
+                store_gradients<Dim>(m, inverse_cell, p, step);
+                step.heat[p] = m.value[Lane::heat] + lost;
+                heat_sum += quantise(particles.mass[p] * lost, motion.inverse_quantum);
+              });
   filter_heat += heat_sum;
 }
 
@@ -156,7 +193,7 @@ void sweep(const SlabGrid& grid, const CellOrder& cells, double damped,
 template <int Dim>
 void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid) {
   using Lane = MotionLane<Dim>;
-  const bool affine = transfer.velocity == VelocityTransfer::apic;
+  const bool end_energy = projects(transfer.velocity);
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     Lanes* nodes = grid.row(row);
     for (int i = 0; i < grid.shape().row_size; ++i) {
@@ -168,7 +205,7 @@ void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid) {
         increment2 += (end - start) * (end - start);
         product += start * end;
       }
-      nodes[i][Lane::kinetic] = affine ? 0.5 * end2 : 0.5 * increment2 + damped * product;
+      nodes[i][Lane::kinetic] = end_energy ? 0.5 * end2 : 0.5 * increment2 + damped * product;
     }
   }
   grid.fill_periodic_images();
@@ -178,15 +215,26 @@ template <int Dim>
 void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, const Transfer& transfer,
                        const Vector<Dim>& grid_velocity, double dt, double inverse_quantum,
                        Particles<Dim>& particles, StepData<Dim>& step, Int128& filter_heat) {
-  const bool affine = transfer.velocity == VelocityTransfer::apic;
-  const double damped = damped_share(transfer, dt);
-  const auto run = [&]<class Spline>(Spline) {
-    affine ? sweep<Dim, Spline, true>(grid, cells, damped, grid_velocity, dt, inverse_quantum,
-                                      particles, step, filter_heat)
-           : sweep<Dim, Spline, false>(grid, cells, damped, grid_velocity, dt, inverse_quantum,
-                                       particles, step, filter_heat);
-  };
-  transfer.shape == ShapeFunction::cubic ? run(CubicSpline{}) : run(QuadraticSpline{});
+  const Motion<Dim> motion = {damped_share(transfer, dt), grid_velocity, dt, inverse_quantum};
+  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
+    if constexpr (is_spline<Spline>) {
+      if (transfer.velocity == VelocityTransfer::apic) {
+        return sweep<Dim, VelocityTransfer::apic, VelocityUpdate::usl>(
+            spline, grid, cells, motion, particles, step, filter_heat);
+      }
+      if (transfer.velocity == VelocityTransfer::pic) {
+        return sweep<Dim, VelocityTransfer::pic, VelocityUpdate::usl>(spline, grid, cells, motion,
+                                                                      particles, step, filter_heat);
+      }
+    } else if (transfer.update == VelocityUpdate::musl) {
+      for (auto& column : step.transport) column.resize(particles.size());
+      return sweep<Dim, VelocityTransfer::flip, VelocityUpdate::musl>(spline, grid, cells, motion,
+                                                                      particles, step, filter_heat);
+    }
+    // FMPM has filtered the velocities before the step; the step itself is FLIP's.
+    sweep<Dim, VelocityTransfer::flip, VelocityUpdate::usl>(spline, grid, cells, motion, particles,
+                                                            step, filter_heat);
+  });
 }
 
 template void prepare_gather<2>(const Transfer&, double, SlabGrid&);

@@ -7,6 +7,10 @@ namespace poreshock {
 
 namespace {
 
+/// Which kinetic energy of its particles a node sums: FLIP and FMPM lose none on the way, PIC that
+/// of v_p, APIC that of v_p + C_p d.
+enum class KineticEnergy { none, plain, affine };
+
 /// What one particle gives to a node at offset d with weight N and slope dN, linear in both:
 /// N (constant + sum_k linear_k d_k) + sum_k dN_k force_k, plus the affine kinetic energy,
 /// quadratic in d, which stands in the kinetic lane of `quadratic`.
@@ -41,7 +45,7 @@ inline int symmetric_index(int a, int b) {
   }
 }
 
-template <int Dim, bool Affine>
+template <int Dim, KineticEnergy Kinetic>
 inline Contribution<Dim> contribution(const Particles<Dim>& particles, std::uint32_t p,
                                       double pressure, double cell) {
   constexpr std::array<double, Dim> none{};
@@ -55,8 +59,9 @@ inline Contribution<Dim> contribution(const Particles<Dim>& particles, std::uint
     momentum[a] = m * v[a];
     speed2 += v[a] * v[a];
   }
-  c.constant = sum_lanes<Dim>(m, momentum, none, Affine ? 0.5 * m * speed2 : 0.0);
-  if constexpr (Affine) {
+  c.constant =
+      sum_lanes<Dim>(m, momentum, none, Kinetic != KineticEnergy::none ? 0.5 * m * speed2 : 0.0);
+  if constexpr (Kinetic == KineticEnergy::affine) {
     std::array<std::array<double, Dim>, Dim> column;  // C_k in velocity per cell
     for (int k = 0; k < Dim; ++k) {
       double along = 0.0;
@@ -148,17 +153,17 @@ inline void accumulate(const Contribution<3>& c, const Stencil<3, Spline>& s, La
   }
 }
 
-template <int Dim, class Spline, bool Affine>
-void sweep(const Particles<Dim>& particles, const CellOrder& cells, const StepData<Dim>& step,
-           bool averaging, SlabGrid& grid) {
+template <int Dim, KineticEnergy Kinetic, class Spline>
+void sweep(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+           const StepData<Dim>& step, bool averaging, SlabGrid& grid) {
   const double cell = grid.shape().cell;
-  scatter<Dim, Spline>(
-      particles, cells,
+  scatter<Dim>(
+      spline, particles, cells,
       [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
         const double pressure = averaging ? step.averaged_pressure[p]
                                           : particles.pressure[p] + particles.viscous_pressure[p];
-        accumulate<Spline, Affine>(contribution<Dim, Affine>(particles, p, pressure, cell), stencil,
-                                   sums);
+        accumulate<Spline, Kinetic == KineticEnergy::affine>(
+            contribution<Dim, Kinetic>(particles, p, pressure, cell), stencil, sums);
       },
       grid);
 }
@@ -169,14 +174,17 @@ template <int Dim>
 void particles_to_grid(const Particles<Dim>& particles, const CellOrder& cells,
                        const Transfer& transfer, const StepData<Dim>& step, SlabGrid& grid) {
   const bool averaging = transfer.averaging > 0.0;
-  const bool affine = transfer.velocity == VelocityTransfer::apic;
-  if (transfer.shape == ShapeFunction::cubic) {
-    affine ? sweep<Dim, CubicSpline, true>(particles, cells, step, averaging, grid)
-           : sweep<Dim, CubicSpline, false>(particles, cells, step, averaging, grid);
-  } else {
-    affine ? sweep<Dim, QuadraticSpline, true>(particles, cells, step, averaging, grid)
-           : sweep<Dim, QuadraticSpline, false>(particles, cells, step, averaging, grid);
-  }
+  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
+    if constexpr (is_spline<Spline>) {
+      if (transfer.velocity == VelocityTransfer::apic) {
+        return sweep<Dim, KineticEnergy::affine>(spline, particles, cells, step, averaging, grid);
+      }
+      if (transfer.velocity == VelocityTransfer::pic) {
+        return sweep<Dim, KineticEnergy::plain>(spline, particles, cells, step, averaging, grid);
+      }
+    }
+    sweep<Dim, KineticEnergy::none>(spline, particles, cells, step, averaging, grid);
+  });
 }
 
 template void particles_to_grid<2>(const Particles<2>&, const CellOrder&, const Transfer&,

@@ -128,6 +128,24 @@ TEST(Contradictions, DampingBelongsToFlip) {
   EXPECT_EQ(problems(small_scene(), {"transfer.damping=1e5", "transfer.velocity=flip"}), "");
 }
 
+TEST(Contradictions, SchemesThatCannotWork) {
+  EXPECT_EQ(override_problems("transfer.shape=linear"),
+            "--set transfer.shape=linear: transfer.velocity: found a transfer that needs "
+            "B-splines, allowed \"flip\" with transfer.shape = \"linear\"");
+  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage"}), "");
+  EXPECT_EQ(problems(small_scene(), {"transfer.shape=gimp", "transfer.velocity=fmpm"}), "");
+  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "transfer.averaging=0.6"}),
+            "--set transfer.averaging=0.6: transfer.averaging: found 0.6, allowed up to 0.5 with "
+            "transfer.shape = \"linear\" or \"gimp\": more is unstable when material crosses "
+            "cells");
+  EXPECT_EQ(override_problems("transfer.update=musl"),
+            "--set transfer.update=musl: transfer.update: found \"musl\", allowed \"usl\" unless "
+            "transfer.velocity = \"flip\" and transfer.shape = \"linear\" or \"gimp\"");
+  EXPECT_EQ(problems(small_scene(), {"transfer.velocity=fmpm", "transfer.order=4", "time.cfl=0.6"}),
+            "--set time.cfl=0.6: time.cfl: found 0.6, allowed up to 0.5 with transfer.velocity = "
+            "\"fmpm\" of order 4");
+}
+
 TEST(Contradictions, Beat) {
   for (const std::string key : {"snapshot", "history"}) {
     const std::string change = "output." + key + "=7.5e-9";

@@ -35,7 +35,7 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.sample.particles_per_cell, 2);
   EXPECT_EQ(scene.materials[0].T0, 300.0);
   EXPECT_EQ(scene.time.cfl, 0.5);
-  EXPECT_EQ(scene.transfer, Transfer{});
+  EXPECT_EQ(scene.transfer, (Transfer{.half_length = 0.25}));
   EXPECT_EQ(scene.viscosity, Viscosity{});
   EXPECT_EQ(scene.output.beat, 5e-9);
   EXPECT_EQ(scene.output.history, 5e-9);
@@ -67,8 +67,11 @@ TEST(Scenes, EveryKeyOf2D) {
   EXPECT_EQ(scene.voids[0].high, (Triple{1e-5, 1e-5, 0.0}));
   EXPECT_EQ(scene.loading, (Loading{1100.0, {0.1, 0.3, 0.0}}));
   EXPECT_EQ(scene.body_force, (Triple{0.0, -9.81, 0.0}));
-  EXPECT_EQ(scene.transfer,
-            (Transfer{ShapeFunction::quadratic, VelocityTransfer::flip, 1e5, 0.25}));
+  EXPECT_EQ(scene.transfer, (Transfer{.shape = ShapeFunction::quadratic,
+                                      .velocity = VelocityTransfer::flip,
+                                      .damping = 1e5,
+                                      .averaging = 0.25,
+                                      .half_length = 0.5 / 3.0}));
   EXPECT_EQ(scene.time.max_steps, 1000000000000);
   EXPECT_EQ(scene.output.fields, (std::vector<std::string>{"stress", "id"}));
   EXPECT_EQ(scene.output.precision, Precision::single_precision);
@@ -190,6 +193,21 @@ TEST(Scenes, PaperFigure1) {
   Scene coarse = read_scene(folder + "fig1_coarse.toml", {"domain.cell=5e-6"});
   coarse.title = scene.title;
   EXPECT_TRUE(coarse == scene);
+}
+
+TEST(Presets, LineageSetsDefaultsThatKeysOverride) {
+  const Transfer plain = parse_scene(small_scene(), "s.toml", {"transfer.preset=lineage"}).transfer;
+  EXPECT_EQ(plain.shape, ShapeFunction::gimp);
+  EXPECT_EQ(plain.velocity, VelocityTransfer::flip);
+  EXPECT_EQ(plain.averaging, 0.0);
+  EXPECT_EQ(plain.half_length, 0.25);
+  const Scene scene =
+      parse_scene(small_scene(), "s.toml",
+                  {"transfer.preset=lineage", "transfer.update=musl", "transfer.shape=linear"});
+  EXPECT_EQ(scene.transfer.shape, ShapeFunction::linear);
+  EXPECT_EQ(scene.transfer.velocity, VelocityTransfer::flip);
+  EXPECT_EQ(scene.transfer.update, VelocityUpdate::musl);
+  EXPECT_EQ(parse_scene(write_scene(scene), "again"), scene);
 }
 
 }  // namespace

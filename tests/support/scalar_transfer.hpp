@@ -2,6 +2,7 @@
 // The transfer between particles and nodes in the formulas of the textbooks: plain loops over
 // particles and nodes, nothing shared with the kernels. The oracle of the transfer tests.
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -11,23 +12,50 @@
 
 namespace poreshock::reference {
 
-/// B-spline at distance r (cells) from its node: quadratic for a stencil of 3 nodes, cubic for 4.
-inline double spline(int stencil, double r) {
-  const double a = std::abs(r);
-  if (stencil == 3) {
-    if (a < 0.5) return 0.75 - a * a;
-    return a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0.0;
+/// Hat function at distance r (cells) from its node.
+inline double hat(double r) {
+  return std::max(0.0, 1.0 - std::abs(r));
+}
+
+/// Integral of the hat function up to r.
+inline double hat_integral(double r) {
+  if (r <= -1.0) return 0.0;
+  if (r >= 1.0) return 1.0;
+  return r < 0.0 ? 0.5 * (1.0 + r) * (1.0 + r) : 1.0 - 0.5 * (1.0 - r) * (1.0 - r);
+}
+
+/// Shape function at distance r (cells) from its node; uniform GIMP as the mean of the hat over the
+/// particle.
+inline double spline(const GridShape& shape, double r) {
+  const double a = std::abs(r), l = shape.half_length;
+  switch (shape.function) {
+    case ShapeFunction::linear:
+      return hat(r);
+    case ShapeFunction::gimp:
+      return (hat_integral(r + l) - hat_integral(r - l)) / (2.0 * l);
+    case ShapeFunction::quadratic:
+      if (a < 0.5) return 0.75 - a * a;
+      return a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0.0;
+    case ShapeFunction::cubic:
+      break;
   }
   if (a < 1.0) return 2.0 / 3.0 - a * a + 0.5 * a * a * a;
   return a < 2.0 ? (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0 : 0.0;
 }
 
-/// Its derivative by r, per cell.
-inline double spline_slope(int stencil, double r) {
-  const double a = std::abs(r), sign = r < 0.0 ? -1.0 : 1.0;
-  if (stencil == 3) {
-    if (a < 0.5) return -2.0 * r;
-    return a < 1.5 ? -sign * (1.5 - a) : 0.0;
+/// Its derivative by r, per cell; a hat has none at its node.
+inline double spline_slope(const GridShape& shape, double r) {
+  const double a = std::abs(r), sign = r < 0.0 ? -1.0 : 1.0, l = shape.half_length;
+  switch (shape.function) {
+    case ShapeFunction::linear:
+      return r >= 1.0 || r < -1.0 ? 0.0 : -sign;
+    case ShapeFunction::gimp:
+      return (hat(r + l) - hat(r - l)) / (2.0 * l);
+    case ShapeFunction::quadratic:
+      if (a < 0.5) return -2.0 * r;
+      return a < 1.5 ? -sign * (1.5 - a) : 0.0;
+    case ShapeFunction::cubic:
+      break;
   }
   if (a < 1.0) return sign * (1.5 * a * a - 2.0 * a);
   return a < 2.0 ? -0.5 * sign * (2.0 - a) * (2.0 - a) : 0.0;
@@ -35,7 +63,7 @@ inline double spline_slope(int stencil, double r) {
 
 /// D: sum over the nodes of N (x_i - x)^2 along one axis, m^2.
 inline double inertia(const GridShape& shape) {
-  return shape.cell * shape.cell / (shape.stencil == 3 ? 4.0 : 3.0);
+  return shape.cell * shape.cell / (shape.function == ShapeFunction::cubic ? 3.0 : 4.0);
 }
 
 /// Calls visit(node, N, grad N, x_i - x) for every node that a point x sees, in SI units. A
@@ -61,9 +89,9 @@ void for_each_node(const GridShape& shape, const Vector<Dim>& x, Visit&& visit) 
     double value = 1.0;
     Vector<Dim> gradient = Vector<Dim>::Constant(1.0 / shape.cell);
     for (int a = 0; a < Dim; ++a) {
-      value *= spline(shape.stencil, r[a]);
+      value *= spline(shape, r[a]);
       for (int b = 0; b < Dim; ++b) {
-        gradient[a] *= a == b ? spline_slope(shape.stencil, r[b]) : spline(shape.stencil, r[b]);
+        gradient[a] *= a == b ? spline_slope(shape, r[b]) : spline(shape, r[b]);
       }
     }
     visit(node, value, gradient, Vector<Dim>(-shape.cell * r));
@@ -117,11 +145,12 @@ struct NodeSums {
 };
 
 /// m_i = sum m N, p_i = sum m N (v + C d), f_i = - sum V (s - P 1) grad N, kinetic energy
-/// sum m N |v + C d|^2 / 2 with d = x_i - x_p. `pressure` per particle, Pa.
+/// sum m N |v + C d|^2 / 2 with d = x_i - x_p where `projected` (APIC, PIC). `pressure` per
+/// particle, Pa.
 template <int Dim>
 std::vector<NodeSums<Dim>> particles_to_grid(const GridShape& shape,
                                              const Particles<Dim>& particles,
-                                             const std::vector<double>& pressure) {
+                                             const std::vector<double>& pressure, bool projected) {
   std::vector<NodeSums<Dim>> nodes(static_cast<std::size_t>(shape.row_size) * shape.rows);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double m = particles.mass[p];
@@ -132,8 +161,7 @@ std::vector<NodeSums<Dim>> particles_to_grid(const GridShape& shape,
                          nodes[i].mass += m * n;
                          nodes[i].momentum += m * n * v;
                          nodes[i].force -= m / particles.density[p] * (stress * grad);
-                         if (particles.options.affine)
-                           nodes[i].kinetic += 0.5 * m * n * v.squaredNorm();
+                         if (projected) nodes[i].kinetic += 0.5 * m * n * v.squaredNorm();
                        });
   }
   return nodes;
@@ -159,11 +187,11 @@ struct Gathered {
   double lost;              ///< J/kg, kinetic energy this transfer turns into heat
 };
 
-/// APIC when the particles have affine velocities, else FLIP with the share `damped` of the
-/// velocity noise removed.
+/// APIC, PIC, or FLIP with the share `damped` of the velocity noise removed.
 template <int Dim>
 Gathered<Dim> grid_to_particle(const GridShape& shape, const std::vector<NodeMotion<Dim>>& nodes,
-                               const Particles<Dim>& particles, std::size_t p, double damped) {
+                               const Particles<Dim>& particles, std::size_t p,
+                               VelocityTransfer transfer, double damped) {
   Vector<Dim> start = Vector<Dim>::Zero(), end = start;
   Matrix<Dim> moment = Matrix<Dim>::Zero(), start_gradient = moment, end_gradient = moment;
   double heat = 0.0, end2 = 0.0, increment2 = 0.0, product = 0.0;
@@ -186,7 +214,13 @@ Gathered<Dim> grid_to_particle(const GridShape& shape, const std::vector<NodeMot
   const Matrix<Dim> middle = 0.5 * (start_gradient + end_gradient);
   g.middle_rate = 0.5 * (middle + middle.transpose());
   g.node_heat = heat;
-  if (particles.options.affine) {
+  g.affine.setZero();
+  if (transfer == VelocityTransfer::pic) {
+    g.velocity = end;
+    g.lost = 0.5 * (end2 - end.squaredNorm());
+    return g;
+  }
+  if (transfer == VelocityTransfer::apic) {
     const double d = inertia(shape);
     g.velocity = end;
     g.affine = moment / d;
@@ -194,7 +228,6 @@ Gathered<Dim> grid_to_particle(const GridShape& shape, const std::vector<NodeMot
     return g;
   }
   const Vector<Dim> old = velocity(particles, p);
-  g.affine.setZero();
   g.velocity = (1.0 - damped) * (old + (end - start)) + damped * end;
   g.lost = 0.5 * (increment2 - (end - start).squaredNorm()) +
            damped * ((1.0 - 0.5 * damped) * (old - start).squaredNorm() + product - start.dot(end));
@@ -220,6 +253,38 @@ std::vector<double> average(const GridShape& shape, const Particles<Dim>& partic
                        [&](int i, double n, const auto&, const auto&) {
                          if (volume[i] > 0.0) result[p] += n * sum[i] / volume[i];
                        });
+  }
+  return result;
+}
+
+/// Mass-weighted average of one number per particle to the nodes.
+template <int Dim>
+std::vector<double> nodal_mean(const GridShape& shape, const Particles<Dim>& particles,
+                               const std::vector<double>& values) {
+  std::vector<double> mass(static_cast<std::size_t>(shape.row_size) * shape.rows, 0.0);
+  std::vector<double> mean = mass;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double m = particles.mass[p];
+    for_each_node<Dim>(shape, position(particles, p),
+                       [&](int i, double n, const auto&, const auto&) {
+                         mass[i] += m * n;
+                         mean[i] += m * n * values[p];
+                       });
+  }
+  for (std::size_t i = 0; i < mass.size(); ++i) mean[i] = mass[i] > 0.0 ? mean[i] / mass[i] : 0.0;
+  return mean;
+}
+
+/// (1 - P) of one number per particle, P the mass-weighted average to the nodes and back.
+template <int Dim>
+std::vector<double> residual(const GridShape& shape, const Particles<Dim>& particles,
+                             const std::vector<double>& values) {
+  const std::vector<double> mean = nodal_mean(shape, particles, values);
+  std::vector<double> result = values;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    for_each_node<Dim>(
+        shape, position(particles, p),
+        [&](int i, double n, const auto&, const auto&) { result[p] -= n * mean[i]; });
   }
   return result;
 }

@@ -33,19 +33,29 @@ struct Choice {
   bool periodic;
 };
 
-inline const std::array<Choice, 6> all_choices = {
+inline const std::array<Choice, 12> all_choices = {
     {{ShapeFunction::quadratic, VelocityTransfer::apic, false},
      {ShapeFunction::quadratic, VelocityTransfer::flip, true},
      {ShapeFunction::cubic, VelocityTransfer::apic, false},
      {ShapeFunction::cubic, VelocityTransfer::apic, true},
      {ShapeFunction::cubic, VelocityTransfer::flip, false},
-     {ShapeFunction::quadratic, VelocityTransfer::apic, true}}};
+     {ShapeFunction::quadratic, VelocityTransfer::apic, true},
+     {ShapeFunction::linear, VelocityTransfer::flip, true},
+     {ShapeFunction::gimp, VelocityTransfer::flip, false},
+     {ShapeFunction::gimp, VelocityTransfer::fmpm, true},
+     {ShapeFunction::quadratic, VelocityTransfer::pic, false},
+     {ShapeFunction::cubic, VelocityTransfer::pic, true},
+     {ShapeFunction::cubic, VelocityTransfer::fmpm, false}}};
 
 inline std::string name(const Choice& choice) {
-  return std::string(choice.shape == ShapeFunction::cubic ? "cubic " : "quadratic ") +
-         (choice.velocity == VelocityTransfer::apic ? "apic" : "flip") +
+  constexpr std::array shapes = {"linear ", "gimp ", "quadratic ", "cubic "};
+  constexpr std::array velocities = {"pic", "flip", "apic", "fmpm"};
+  return std::string(shapes[static_cast<std::size_t>(choice.shape)]) +
+         velocities[static_cast<std::size_t>(choice.velocity)] +
          (choice.periodic ? " periodic" : "");
 }
+
+inline constexpr double half_length = 0.25;  // cells
 
 template <int Dim>
 GridShape cloud_grid(const Choice& choice) {
@@ -55,6 +65,7 @@ GridShape cloud_grid(const Choice& choice) {
   scene.domain.cells = Dim == 2 ? std::array<int, 3>{7, 12, 0} : std::array<int, 3>{6, 5, 10};
   scene.domain.periodic = {choice.periodic, choice.periodic};
   scene.transfer.shape = choice.shape;
+  scene.transfer.half_length = half_length;
   return make_grid_shape(scene);
 }
 
@@ -66,6 +77,7 @@ Cloud<Dim> make_cloud(const Choice& choice) {
   cloud.shape = cloud_grid<Dim>(choice);
   cloud.transfer.shape = choice.shape;
   cloud.transfer.velocity = choice.velocity;
+  cloud.transfer.half_length = half_length;
   Particles<Dim>& particles = cloud.particles;
   particles.options.affine = choice.velocity == VelocityTransfer::apic;
   const std::size_t count = Dim == 2 ? 300 : 500;
@@ -82,7 +94,9 @@ Cloud<Dim> make_cloud(const Choice& choice) {
       const int cells = cloud.shape.nodes[a] - 3;
       double s = cells * random.uniform();
       if (a + 1 == Dim && s >= 4.0 && s < 6.0) s -= 4.0;
-      if (random.below(20) == 0) s = 0.5 * std::floor(2.0 * s);
+      // A hat has no slope on a cell edge.
+      const double offset = choice.shape == ShapeFunction::linear ? 0.25 : 0.0;
+      if (random.below(20) == 0) s = 0.5 * std::floor(2.0 * s) + offset;
       particles.position[a][p] = s * cell;
       particles.velocity[a][p] = between(-500.0, 500.0);
     }
@@ -112,7 +126,7 @@ struct Slab {
 template <int Dim>
 int stencil_base(const Cloud<Dim>& cloud, int axis, std::size_t p) {
   const double s = cloud.particles.position[axis][p] * (1.0 / cloud.shape.cell);
-  return cloud.shape.stencil == 4 ? CubicSpline::base(s) : QuadraticSpline::base(s);
+  return poreshock::stencil_base(cloud.shape.stencil, s, cloud.shape.nodes[axis]);
 }
 
 /// The slab of this rank, with its particles stored in the order `storage` of the cloud.

@@ -18,8 +18,7 @@ NodeGain transfer_cycle(const Cloud<Dim>& cloud, double inverse_quantum, Kick&& 
                         MPI_Comm communicator, Slab<Dim>& slab) {
   particles_to_grid(slab.particles, slab.cells, cloud.transfer, slab.step, *slab.grid);
   slab.grid->exchange();
-  const bool affine = slab.particles.options.affine;
-  NodeGain gain = kick_nodes<Dim>(affine, kick, *slab.grid);
+  NodeGain gain = kick_nodes<Dim>(projects(cloud.transfer.velocity), kick, *slab.grid);
   for (double* value : {&gain.work, &gain.heat}) {
     MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_SUM, communicator);
   }

@@ -49,10 +49,10 @@ struct NodeGain {
   double work = 0.0, heat = 0.0;
 };
 
-/// From nodal sums to motion: v = p/m, v' = v + kick of the node; affine particles leave the
+/// From nodal sums to motion: v = p/m, v' = v + kick of the node; PIC and APIC leave the
 /// kinetic energy that the node cannot hold as heat. Returns the gain of the nodes this rank owns.
 template <int Dim, class Kick>
-NodeGain kick_nodes(bool affine, Kick&& kick, SlabGrid& grid) {
+NodeGain kick_nodes(bool projected, Kick&& kick, SlabGrid& grid) {
   using Sum = SumLane<Dim>;
   using Lane = MotionLane<Dim>;
   NodeGain gain;
@@ -72,7 +72,7 @@ NodeGain kick_nodes(bool affine, Kick&& kick, SlabGrid& grid) {
         energy += 0.5 * start * start;
         power += change[a] * (start + 0.5 * change[a]);
       }
-      lanes[Lane::heat] = affine ? sums[Sum::kinetic] / mass - energy : 0.0;
+      lanes[Lane::heat] = projected ? sums[Sum::kinetic] / mass - energy : 0.0;
       lanes[Lane::mass] = mass;
       if (row >= grid.last_row()) continue;
       gain.work += mass * power;

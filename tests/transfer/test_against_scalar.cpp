@@ -64,7 +64,8 @@ void compare_sums(const Choice& choice, double averaging) {
   }
   particles_to_grid(slab.particles, slab.cells, cloud.transfer, slab.step, *slab.grid);
   slab.grid->exchange();
-  expect_sums(*slab.grid, reference::particles_to_grid(cloud.shape, cloud.particles, pressure));
+  expect_sums(*slab.grid, reference::particles_to_grid(cloud.shape, cloud.particles, pressure,
+                                                       projects(choice.velocity)));
 }
 
 TEST(ParticlesToGrid, GivesTheSumsOfTheTextbook) {
@@ -135,8 +136,8 @@ void compare_gather(const Choice& choice, double damping) {
   Comparison worst;
   for (std::size_t local = 0; local < slab.particles.size(); ++local) {
     const auto p = static_cast<std::size_t>(slab.particles.id[local]);
-    const auto expected =
-        reference::grid_to_particle<Dim>(cloud.shape, motion, cloud.particles, p, damped);
+    const auto expected = reference::grid_to_particle<Dim>(cloud.shape, motion, cloud.particles, p,
+                                                           choice.velocity, damped);
     const Vector<Dim> position =
         reference::position(cloud.particles, p) + dt * (expected.transport - grid_velocity);
     add_particle(slab, local, expected, position, worst);

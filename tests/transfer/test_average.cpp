@@ -96,7 +96,8 @@ void compare_dilatation(const Choice& choice, double share) {
                      slab.step);
   std::vector<double> end, middle;
   for (std::size_t p = 0; p < cloud.particles.size(); ++p) {
-    const auto g = reference::grid_to_particle<Dim>(cloud.shape, motion, cloud.particles, p, 0.0);
+    const auto g = reference::grid_to_particle<Dim>(cloud.shape, motion, cloud.particles, p,
+                                                    cloud.transfer.velocity, 0.0);
     end.push_back(g.gradient.trace());
     middle.push_back(g.middle_rate.trace());
   }

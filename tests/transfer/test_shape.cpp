@@ -1,4 +1,4 @@
-// B-splines: the sums that make transfers conserve, the formulas, and the stencil cell.
+// Shape functions: the sums that make transfers conserve, the formulas, and the stencil cell.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,15 +26,25 @@ std::vector<double> sample_points() {
 
 template <class Spline>
 class Shape : public ::testing::Test {};
-using Splines = ::testing::Types<QuadraticSpline, CubicSpline>;
-TYPED_TEST_SUITE(Shape, Splines);
+using Shapes = ::testing::Types<LinearHat, UniformGimp, QuadraticSpline, CubicSpline>;
+TYPED_TEST_SUITE(Shape, Shapes);
 
-TYPED_TEST(Shape, HasTheMomentsOfABSpline) {
-  constexpr double inertia = TypeParam::width == 3 ? 1.0 / 4.0 : 1.0 / 3.0;
-  EXPECT_EQ(1.0 / TypeParam::inverse_inertia, inertia);
+/// The same shape as the reference names it.
+template <class Type>
+GridShape named_shape() {
+  GridShape shape;
+  shape.half_length = 0.25;
+  if constexpr (std::is_same_v<Type, LinearHat>) shape.function = ShapeFunction::linear;
+  if constexpr (std::is_same_v<Type, UniformGimp>) shape.function = ShapeFunction::gimp;
+  if constexpr (std::is_same_v<Type, QuadraticSpline>) shape.function = ShapeFunction::quadratic;
+  if constexpr (std::is_same_v<Type, CubicSpline>) shape.function = ShapeFunction::cubic;
+  return shape;
+}
+
+TYPED_TEST(Shape, SumsToOneAndPlacesTheParticle) {
   for (const double s : sample_points()) {
     const int base = TypeParam::base(s);
-    const auto w = TypeParam::weights(s, base);
+    const auto w = TypeParam{}.weights(s, base);
     double one = 0.0, first = 0.0, second = 0.0, place = 0.0;
     double slope = 0.0, slope_first = 0.0, slope_second = 0.0;
     for (int i = 0; i < TypeParam::width; ++i) {
@@ -50,22 +60,27 @@ TYPED_TEST(Shape, HasTheMomentsOfABSpline) {
     }
     EXPECT_NEAR(one, 1.0, 1e-15) << s;
     EXPECT_NEAR(first, 0.0, 1e-15) << s;
-    EXPECT_NEAR(second, inertia, 1e-15) << s;
     EXPECT_NEAR(place, s, 1e-15 * std::max(s, 1.0)) << s;
     EXPECT_NEAR(slope, 0.0, 1e-15) << s;
     EXPECT_NEAR(slope_first, 1.0, 1e-15) << s;
-    EXPECT_NEAR(slope_second, 0.0, 1e-15) << s;
+    if constexpr (is_spline<TypeParam>) {
+      constexpr double inertia = TypeParam::width == 3 ? 1.0 / 4.0 : 1.0 / 3.0;
+      EXPECT_EQ(1.0 / TypeParam::inverse_inertia, inertia);
+      EXPECT_NEAR(second, inertia, 1e-15) << s;
+      EXPECT_NEAR(slope_second, 0.0, 1e-15) << s;
+    }
   }
 }
 
 TYPED_TEST(Shape, IsThatOfTheTextbook) {
+  const GridShape shape = named_shape<TypeParam>();
   for (const double s : sample_points()) {
     const int base = TypeParam::base(s);
-    const auto w = TypeParam::weights(s, base);
+    const auto w = TypeParam{}.weights(s, base);
     for (int i = 0; i < TypeParam::width; ++i) {
       const double r = s - (base + i - 1);
-      EXPECT_NEAR(w.value[i], reference::spline(TypeParam::width, r), 1e-15) << s;
-      EXPECT_NEAR(w.slope[i], reference::spline_slope(TypeParam::width, r), 1e-15) << s;
+      EXPECT_NEAR(w.value[i], reference::spline(shape, r), 1e-15) << s;
+      EXPECT_NEAR(w.slope[i], reference::spline_slope(shape, r), 1e-15) << s;
     }
   }
 }
@@ -75,11 +90,11 @@ TYPED_TEST(Shape, SlopeIsTheDerivativeOfTheValue) {
   reference::Random random{4};
   for (int k = 0; k < 1000; ++k) {
     // Away from the joints, where the third derivative jumps.
-    const double s = random.below(12) + 0.5 * random.below(2) + 0.001 + 0.498 * random.uniform();
+    const double s = random.below(12) + 0.5 * random.below(2) + 0.001 + 0.248 * random.uniform();
     const int base = TypeParam::base(s);
-    const auto low = TypeParam::weights(s - h, base);
-    const auto middle = TypeParam::weights(s, base);
-    const auto high = TypeParam::weights(s + h, base);
+    const auto low = TypeParam{}.weights(s - h, base);
+    const auto middle = TypeParam{}.weights(s, base);
+    const auto high = TypeParam{}.weights(s + h, base);
     for (int i = 0; i < TypeParam::width; ++i) {
       EXPECT_NEAR(middle.slope[i], (high.value[i] - low.value[i]) / (2.0 * h), 1e-10) << s;
     }
@@ -92,13 +107,15 @@ TYPED_TEST(Shape, IsContinuousWhereTheStencilChanges) {
     const int base = TypeParam::base(s);
     const double before = std::nextafter(s, 0.0);
     ASSERT_EQ(TypeParam::base(before), base - 1);
-    const auto here = TypeParam::weights(s, base);
-    const auto there = TypeParam::weights(before, base - 1);
-    EXPECT_NEAR(there.value[0], 0.0, 1e-15);
+    const auto here = TypeParam{}.weights(s, base);
+    const auto there = TypeParam{}.weights(before, base - 1);
+    EXPECT_NEAR(there.value[0], 0.0, 2e-15);
     EXPECT_NEAR(here.value[TypeParam::width - 1], 0.0, 1e-15);
     for (int i = 0; i + 1 < TypeParam::width; ++i) {
       EXPECT_NEAR(here.value[i], there.value[i + 1], 2e-15);
-      EXPECT_NEAR(here.slope[i], there.slope[i + 1], 4e-15);
+      if (TypeParam::width > 2) {  // a hat's slope jumps there
+        EXPECT_NEAR(here.slope[i], there.slope[i + 1], 4e-15);
+      }
     }
   }
 }
@@ -112,6 +129,12 @@ TEST(StencilCell, OfTheQuadraticSplineChangesAtHalfCells) {
   EXPECT_EQ(QuadraticSpline::base(1.5), 2);
   EXPECT_EQ(QuadraticSpline::base(1000.5), 1001);
   EXPECT_EQ(QuadraticSpline::base(std::nextafter(1000.5, 0.0)), 1000);
+}
+
+TEST(StencilCell, OfTheHatChangesAtWholeCells) {
+  EXPECT_EQ(LinearHat::base(0.0), 1);
+  EXPECT_EQ(LinearHat::base(std::nextafter(1.0, 0.0)), 1);
+  EXPECT_EQ(LinearHat::base(1.0), 2);
 }
 
 TEST(StencilCell, OfTheCubicSplineChangesAtWholeCells) {

@@ -12,11 +12,13 @@ namespace poreshock {
 /// Phases of a run, in the order of the table at its end.
 enum class PhaseName {
   sort,
+  filter,
   particles_to_grid,
   exchange,
   average,
   grid_update,
   grid_to_particles,
+  remap,
   stress,
   time_step,
   migrate,

@@ -22,13 +22,18 @@ namespace poreshock {
 /// Shape of the grid, the same on every rank.
 struct GridShape {
   int dimension = 2;
-  int stencil = 4;                    ///< nodes per axis of a stencil: 3 quadratic, 4 cubic
+  ShapeFunction function = ShapeFunction::cubic;
+  double half_length = 0.0;           ///< cells, half a particle's edge (GIMP)
+  int stencil = 4;                    ///< nodes per axis of a stencil
   double cell = 0.0;                  ///< m
   std::array<int, 3> nodes{1, 1, 1};  ///< per axis: cells + 3
   std::array<bool, 2> periodic{};     ///< lateral axes
   int row_size = 0;                   ///< nodes of one row
   int rows = 0;                       ///< node rows along the shock axis
 };
+
+/// Nodes per axis of a stencil: 2 linear, 3 GIMP and quadratic, 4 cubic.
+int stencil_width(ShapeFunction shape);
 
 GridShape make_grid_shape(const Scene& scene);
 

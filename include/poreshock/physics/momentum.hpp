@@ -7,11 +7,11 @@
 namespace poreshock {
 
 /// From nodal sums (SumLane) to motion (MotionLane): v = p/m, v' = v + dt (f/m + b) (paper eq 13),
-/// and for affine particles the heat per mass that their projection onto the grid loses. Empty
-/// nodes stay zero. Body-force work and filter heat of owned nodes are added to the ledger. Not
-/// collective.
+/// and with `projected` (PIC, APIC) the heat per mass that the projection of the particles onto the
+/// grid loses. Empty nodes stay zero. Body-force work and filter heat of owned nodes are added to
+/// the ledger. Not collective.
 template <int Dim>
-void integrate_momentum(const Vector<Dim>& body_force, bool affine, double dt, SlabGrid& grid,
+void integrate_momentum(const Vector<Dim>& body_force, bool projected, double dt, SlabGrid& grid,
                         NodeLedger& ledger);
 
 /// Adds the work and impulse of the body force over this step on owned nodes. Call after the

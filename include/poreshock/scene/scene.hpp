@@ -17,8 +17,9 @@ using Triple = std::array<double, 3>;
 enum class SideKind { periodic, wall, symmetry, free };
 enum class SampleKind { none, solid, random_voids };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
-enum class ShapeFunction { quadratic, cubic };
-enum class VelocityTransfer { flip, apic };
+enum class ShapeFunction { linear, gimp, quadratic, cubic };
+enum class VelocityTransfer { pic, flip, apic, fmpm };
+enum class VelocityUpdate { usl, musl };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class Precision { double_precision, single_precision };
 
@@ -92,8 +93,11 @@ struct Loading {
 struct Transfer {
   ShapeFunction shape = ShapeFunction::cubic;
   VelocityTransfer velocity = VelocityTransfer::apic;
-  double damping = 0.0;    ///< 1/s, FLIP only
-  double averaging = 0.0;  ///< 0 (off) ... 1 share of the averaged dilatation
+  double damping = 0.0;  ///< 1/s, FLIP only
+  int order = 3;         ///< FMPM only: order of its filter
+  VelocityUpdate update = VelocityUpdate::usl;
+  double averaging = 0.0;    ///< 0 (off) ... 1 share of the averaged dilatation
+  double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
   bool operator==(const Transfer&) const = default;
 };
 

@@ -16,7 +16,8 @@ template <int Dim>
 void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid);
 
 /// Updates velocity, affine velocity and position of every particle and sets step.gradient,
-/// step.rate and step.heat. Positions advance relative to the grid, which moves with grid_velocity.
+/// step.rate and step.heat. Positions advance relative to the grid, which moves with grid_velocity;
+/// with MUSL they wait for gather_remapped and step.transport is set.
 /// The filter heat of this sweep (J) is added to filter_heat in quanta. Source of the closures:
 /// FLIP and APIC kinetic energy balances, sum_p m_p v_p . dv_p = sum_i m_i v_i . dv_i. Not
 /// collective.

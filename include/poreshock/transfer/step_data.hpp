@@ -17,7 +17,9 @@ struct StepData {
   std::array<std::vector<double>, Dim * Dim> gradient;   ///< 1/s, of the new velocity, row major
   std::array<std::vector<double>, rate_size<Dim>> rate;  ///< 1/s, symmetric gradient at mid-step
   std::vector<double> heat;                              ///< J/kg, filter, wall and contact heat
-  std::vector<double> averaged_pressure;               ///< Pa, p + q averaged; only with averaging
+  std::array<std::vector<double>, Dim> residual;   ///< m/s, part the filter takes; only with FMPM
+  std::array<std::vector<double>, Dim> transport;  ///< m/s, velocity of the places; only with MUSL
+  std::vector<double> averaged_pressure;           ///< Pa, p + q averaged; only with averaging
   std::vector<double> dilatation_end, dilatation_mid;  ///< 1/s, averaged; only with averaging
 
   void resize(std::size_t count, bool averaging) {

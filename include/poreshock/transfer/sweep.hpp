@@ -17,6 +17,29 @@ struct Stencil {
   std::array<AxisWeights<Spline::width>, Dim> axis;
 };
 
+/// Weight of stencil node n.
+template <int Dim, class Spline>
+inline double node_weight(const Stencil<Dim, Spline>& s, int n) {
+  constexpr int w = Spline::width;
+  if constexpr (Dim == 2) {
+    return s.axis[0].value[n % w] * s.axis[1].value[n / w];
+  } else {
+    return s.axis[0].value[n % w] * s.axis[1].value[(n / w) % w] * s.axis[2].value[n / (w * w)];
+  }
+}
+
+/// Slope of the weight of stencil node n along axis k, per cell.
+template <int Dim, class Spline>
+inline double node_slope(const Stencil<Dim, Spline>& s, int n, int k) {
+  constexpr int w = Spline::width;
+  const int index[3] = {n % w, Dim == 3 ? (n / w) % w : n / w, n / (w * w)};
+  double slope = 1.0;
+  for (int a = 0; a < Dim; ++a) {
+    slope *= a == k ? s.axis[a].slope[index[a]] : s.axis[a].value[index[a]];
+  }
+  return slope;
+}
+
 /// Number of nodes of a stencil.
 template <int Dim, class Spline>
 inline constexpr int stencil_nodes =
@@ -33,11 +56,12 @@ inline std::array<int, Dim> cell_index(const GridShape& shape, int row, int late
 }
 
 template <int Dim, class Spline>
-inline Stencil<Dim, Spline> stencil_at(const Particles<Dim>& particles, std::uint32_t p,
-                                       const std::array<int, Dim>& base, double inverse_cell) {
+inline Stencil<Dim, Spline> stencil_at(const Spline& spline, const Particles<Dim>& particles,
+                                       std::uint32_t p, const std::array<int, Dim>& base,
+                                       double inverse_cell) {
   Stencil<Dim, Spline> result;
   for (int a = 0; a < Dim; ++a) {
-    result.axis[a] = Spline::weights(particles.position[a][p] * inverse_cell, base[a]);
+    result.axis[a] = spline.weights(particles.position[a][p] * inverse_cell, base[a]);
   }
   return result;
 }
@@ -82,8 +106,8 @@ void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const
 /// nodes; sums of a run start at +0 and are added to the row buffer, that to the grid. Not
 /// collective.
 template <int Dim, class Spline, class Accumulate>
-void scatter(const Particles<Dim>& particles, const CellOrder& cells, Accumulate&& accumulate,
-             SlabGrid& grid) {
+void scatter(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+             Accumulate&& accumulate, SlabGrid& grid) {
   const GridShape& shape = grid.shape();
   const double inverse_cell = 1.0 / shape.cell;
   const std::size_t block = static_cast<std::size_t>(Spline::width) * shape.row_size;
@@ -95,7 +119,7 @@ void scatter(const Particles<Dim>& particles, const CellOrder& cells, Accumulate
         const auto base = cell_index<Dim>(shape, row, lateral);
         Lanes sums[stencil_nodes<Dim, Spline>] = {};
         for (; first != last; ++first) {
-          const auto stencil = stencil_at<Dim, Spline>(particles, *first, base, inverse_cell);
+          const auto stencil = stencil_at<Dim>(spline, particles, *first, base, inverse_cell);
           accumulate(*first, stencil, sums);
         }
         Lanes* target = buffer.data() + lateral;
@@ -112,8 +136,8 @@ void scatter(const Particles<Dim>& particles, const CellOrder& cells, Accumulate
 /// Gathers from nodes: visit(p, stencil, nodes) sees the stencil nodes of each particle.
 /// Nodes must be complete, periodic images filled. Not collective.
 template <int Dim, class Spline, class Visit>
-void gather(const Particles<Dim>& particles, const CellOrder& cells, const SlabGrid& grid,
-            Visit&& visit) {
+void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+            const SlabGrid& grid, Visit&& visit) {
   const GridShape& shape = grid.shape();
   const double inverse_cell = 1.0 / shape.cell;
   for_each_run(
@@ -126,10 +150,20 @@ void gather(const Particles<Dim>& particles, const CellOrder& cells, const SlabG
           nodes[n] = source[node_offset<Dim, Spline>(shape, n)];
         }
         for (; first != last; ++first) {
-          visit(*first, stencil_at<Dim, Spline>(particles, *first, base, inverse_cell), nodes);
+          visit(*first, stencil_at<Dim>(spline, particles, *first, base, inverse_cell), nodes);
         }
       },
       [](int) {});
+}
+
+/// Sum of weight times node over a stencil.
+template <int Dim, class Spline>
+inline Lanes interpolate(const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+  Lanes value{};
+  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+    value += node_weight<Dim, Spline>(stencil, n) * nodes[n];
+  }
+  return value;
 }
 
 }  // namespace poreshock

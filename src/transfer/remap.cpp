@@ -1,0 +1,84 @@
+#include "poreshock/transfer/remap.hpp"
+
+#include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/sweep.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// The end gradient, and its symmetric part as the rate that does the work.
+template <int Dim>
+void store_gradient(const Matrix<Dim>& g, std::uint32_t p, StepData<Dim>& step) {
+  for (int a = 0; a < Dim; ++a) {
+    for (int k = 0; k < Dim; ++k) step.gradient[a * Dim + k][p] = g(a, k);
+  }
+  if constexpr (Dim == 2) {
+    step.rate[0][p] = g(0, 0);
+    step.rate[1][p] = g(1, 1);
+    step.rate[2][p] = 0.5 * (g(0, 1) + g(1, 0));
+  } else {
+    for (int a = 0; a < 3; ++a) step.rate[a][p] = g(a, a);
+    step.rate[3][p] = 0.5 * (g(0, 1) + g(1, 0));
+    step.rate[4][p] = 0.5 * (g(1, 2) + g(2, 1));
+    step.rate[5][p] = 0.5 * (g(2, 0) + g(0, 2));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void remap_velocity(const Particles<Dim>& particles, const CellOrder& cells,
+                    const Transfer& transfer, SlabGrid& grid) {
+  with_hat(transfer, [&]<class Spline>(const Spline& spline) {
+    scatter<Dim>(
+        spline, particles, cells,
+        [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
+          const double m = particles.mass[p];
+          Lanes momentum{};
+          momentum[SumLane<Dim>::mass] = m;
+          for (int a = 0; a < Dim; ++a) {
+            momentum[SumLane<Dim>::momentum + a] = m * particles.velocity[a][p];
+          }
+          for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+            sums[n] += node_weight<Dim, Spline>(stencil, n) * momentum;
+          }
+        },
+        grid);
+  });
+}
+
+template <int Dim>
+void gather_remapped(const SlabGrid& grid, const CellOrder& cells, const Transfer& transfer,
+                     const Vector<Dim>& grid_velocity, double dt, Particles<Dim>& particles,
+                     StepData<Dim>& step) {
+  const double inverse_cell = 1.0 / grid.shape().cell;
+  with_hat(transfer, [&]<class Spline>(const Spline& spline) {
+    gather<Dim>(spline, particles, cells, grid,
+                [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+                  std::array<Lanes, Dim> gradient{};
+                  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+                    for (int k = 0; k < Dim; ++k) {
+                      gradient[k] += node_slope<Dim, Spline>(stencil, n, k) * nodes[n];
+                    }
+                  }
+                  Matrix<Dim> g;
+                  for (int a = 0; a < Dim; ++a) {
+                    for (int k = 0; k < Dim; ++k) {
+                      g(a, k) = gradient[k][MotionLane<Dim>::end_velocity + a] * inverse_cell;
+                    }
+                    particles.position[a][p] += dt * (step.transport[a][p] - grid_velocity[a]);
+                  }
+                  store_gradient<Dim>(g, p, step);
+                });
+  });
+}
+
+template void remap_velocity<2>(const Particles<2>&, const CellOrder&, const Transfer&, SlabGrid&);
+template void remap_velocity<3>(const Particles<3>&, const CellOrder&, const Transfer&, SlabGrid&);
+template void gather_remapped<2>(const SlabGrid&, const CellOrder&, const Transfer&,
+                                 const Vector<2>&, double, Particles<2>&, StepData<2>&);
+template void gather_remapped<3>(const SlabGrid&, const CellOrder&, const Transfer&,
+                                 const Vector<3>&, double, Particles<3>&, StepData<3>&);
+
+}  // namespace poreshock
