@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "poreshock/output/record_stamp.hpp"
+
 namespace poreshock {
 
 /// Measurements of one field at one time; all curves have one entry per threshold.
@@ -21,21 +23,13 @@ struct MorphologyRecord {
   std::vector<std::pair<std::string, std::vector<double>>> functionals;  ///< in pixel units
 };
 
-/// When and from what a record was measured.
-struct MorphologyStamp {
-  std::int64_t record = 0;
-  std::int64_t step = 0;
-  double time = 0.0;  ///< s
-  std::string scene_text;
-};
-
 /// File name of a record in its folder: morphology_NNNNNN.h5.
 std::string morphology_name(std::int64_t record);
 
 /// Writes /<field>/{time, step, record, threshold, pixels, counts..., functionals...}, curves as
 /// 1 x thresholds, replacing an older file. Rank 0's arguments count, and rank 0 works; SystemError
 /// on all ranks when it fails. Collective.
-void write_morphology(const std::string& path, const MorphologyStamp& stamp,
+void write_morphology(const std::string& path, const RecordStamp& stamp,
                       const std::vector<MorphologyRecord>& records, MPI_Comm communicator);
 
 /// Takes the records from number `first` on out of morphology.h5, which a restarted run is about to
