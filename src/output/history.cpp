@@ -64,9 +64,14 @@ std::string history_header(int dimension) {
                            "contact_heat", "friction_heat", "conduction"}) {
     header.append(",").append(name).append(energy);
   }
-  header.append(",momentum_x").append(momentum).append(",momentum_y").append(momentum);
-  if (!plane) header.append(",momentum_z").append(momentum);
-  return header.append(",guards [-]");
+  for (const char* name :
+       {"momentum", "escaped_momentum", "wall_impulse", "body_impulse", "total_momentum"}) {
+    for (const char* axis : {"_x", "_y", "_z"}) {
+      if (plane && axis[1] == 'z') continue;
+      header.append(",").append(name).append(axis).append(momentum);
+    }
+  }
+  return header.append(",wall_force").append(plane ? " [N/m]" : " [N]").append(",guards [-]");
 }
 
 std::string history_line(const HistoryRow& row, int dimension) {
@@ -81,7 +86,11 @@ std::string history_line(const HistoryRow& row, int dimension) {
         row.contact_heat, row.friction_heat, row.conduction}) {
     add(value, line);
   }
-  for (int a = 0; a < dimension; ++a) add(row.momentum[static_cast<std::size_t>(a)], line);
+  for (const auto* values : {&row.momentum, &row.escaped_momentum, &row.wall_impulse,
+                             &row.body_impulse, &row.total_momentum}) {
+    for (int a = 0; a < dimension; ++a) add((*values)[static_cast<std::size_t>(a)], line);
+  }
+  add(row.wall_force, line);
   add(row.guards, line);
   return line;
 }

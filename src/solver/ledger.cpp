@@ -26,6 +26,7 @@ void for_each_sum(LedgerType& l, Visitor&& visit) {
   visit(l.escaped_energy);
   visit(l.escaped_mass);
   for (auto& x : l.escaped_momentum) visit(x);
+  visit(l.row_wall_impulse);
 }
 
 /// Visits all counters in a fixed order.
@@ -54,6 +55,27 @@ double square(const std::array<std::vector<double>, symmetric_size<Dim>>& tensor
   SymmetricTensor<Dim> t;
   for (int k = 0; k < symmetric_size<Dim>; ++k) t[k] = tensor[k][p];
   return contract<Dim>(t, t);
+}
+
+/// Momentum now, what left and what was given, and their sum, which stays. Collective.
+void balance_momentum(const std::array<Int128, 3>& momentum, const Ledger& ledger,
+                      MPI_Comm communicator, HistoryRow& row) {
+  std::vector<Int128> sums;
+  for (const auto* triple : {&momentum, &ledger.escaped_momentum, &ledger.nodes.wall_impulse,
+                             &ledger.nodes.body_impulse}) {
+    sums.insert(sums.end(), triple->begin(), triple->end());
+  }
+  sum(sums, communicator);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto value = [&](Int128 quanta) {
+      return static_cast<double>(quanta) * ledger.momentum_quantum;
+    };
+    row.momentum[a] = value(sums[a]);
+    row.escaped_momentum[a] = value(sums[3 + a]);
+    row.wall_impulse[a] = value(sums[6 + a]);
+    row.body_impulse[a] = value(sums[9 + a]);
+    row.total_momentum[a] = value(sums[a] + sums[3 + a] - sums[6 + a] - sums[9 + a]);
+  }
 }
 
 }  // namespace
@@ -127,10 +149,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
                               ledger.nodes.body_work,
                               ledger.viscous_heat,
                               ledger.nodes.filter_heat + ledger.transfer_heat,
-                              ledger.nodes.wall_heat,
-                              momentum[0],
-                              momentum[1],
-                              momentum[2]};
+                              ledger.nodes.wall_heat};
   sum(sums, communicator);
   std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
                                       ledger.guards.compression + ledger.guards.sound_speed +
@@ -154,10 +173,21 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   row.filter_heat = energy(sums[8]);
   row.wall_heat = energy(sums[9]);
   row.total = energy(sums[0] + sums[1] + sums[4] - sums[5] - sums[6]);
-  for (std::size_t a = 0; a < 3; ++a) {
-    row.momentum[a] = static_cast<double>(sums[10 + a]) * ledger.momentum_quantum;
-  }
+  balance_momentum(momentum, ledger, communicator, row);
   return row;
+}
+
+double mean_wall_force(const Ledger& ledger, int dimension, double time, MPI_Comm communicator) {
+  const auto axis = static_cast<std::size_t>(dimension - 1);
+  std::vector<Int128> impulse = {ledger.nodes.wall_impulse[axis] - ledger.row_wall_impulse};
+  sum(impulse, communicator);
+  const double span = time - ledger.row_time;
+  return span > 0.0 ? static_cast<double>(impulse[0]) * ledger.momentum_quantum / span : 0.0;
+}
+
+void mark_row(int dimension, double time, Ledger& ledger) {
+  ledger.row_wall_impulse = ledger.nodes.wall_impulse[static_cast<std::size_t>(dimension - 1)];
+  ledger.row_time = time;
 }
 
 template <int Dim>

@@ -102,6 +102,8 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   row.time = sim.clock.time;
   row.step = sim.clock.step;
   row.dt = sim.clock.allowed;
+  row.wall_force = mean_wall_force(sim.ledger, Dim, row.time, sim.communicator);
+  mark_row(Dim, row.time, sim.ledger);
   recorder.history->write(row);
   if (!recorder.first_total) recorder.first_total = row.total;
   recorder.last_row = row;

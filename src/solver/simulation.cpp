@@ -61,7 +61,7 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
 /// Number of integers that run_state() puts into a checkpoint.
 template <int Dim>
 std::size_t run_state_integers(const Simulation<Dim>& sim) {
-  return 4 + save(sim.ledger, MPI_COMM_SELF).size();
+  return 5 + save(sim.ledger, MPI_COMM_SELF).size();
 }
 
 template <int Dim>
@@ -127,7 +127,8 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.clock.first_limit = std::bit_cast<double>(state.integers.at(1));
   set_quanta(std::bit_cast<double>(state.integers.at(2)),
              std::bit_cast<double>(state.integers.at(3)), sim.ledger);
-  restore({state.integers.begin() + 4, state.integers.end()}, rank(communicator) == 0, sim.ledger);
+  sim.ledger.row_time = std::bit_cast<double>(state.integers.at(4));
+  restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   rebalance(0.0, sim);
   return sim;
@@ -145,8 +146,8 @@ RunState run_state(const Simulation<Dim>& sim) {
   double limit = sim.clock.limit;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MIN, sim.communicator),
             "MPI_Allreduce of the time step");
-  for (const double x :
-       {limit, sim.clock.first_limit, sim.ledger.energy_quantum, sim.ledger.momentum_quantum}) {
+  for (const double x : {limit, sim.clock.first_limit, sim.ledger.energy_quantum,
+                         sim.ledger.momentum_quantum, sim.ledger.row_time}) {
     state.integers.push_back(std::bit_cast<std::int64_t>(x));
   }
   const std::vector<std::int64_t> ledger = save(sim.ledger, sim.communicator);

@@ -19,7 +19,10 @@ const std::string plane_header =
     "time [s],step [-],dt [s],particles [-],kinetic [J/m],internal [J/m],escaped [J/m],"
     "wall_work [J/m],body_work [J/m],total [J/m],elastic [J/m],plastic_work [J/m],"
     "viscous_heat [J/m],filter_heat [J/m],wall_heat [J/m],contact_heat [J/m],friction_heat [J/m],"
-    "conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],guards [-]";
+    "conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],escaped_momentum_x [kg/s],"
+    "escaped_momentum_y [kg/s],wall_impulse_x [kg/s],wall_impulse_y [kg/s],body_impulse_x [kg/s],"
+    "body_impulse_y [kg/s],total_momentum_x [kg/s],total_momentum_y [kg/s],wall_force [N/m],"
+    "guards [-]";
 
 HistoryRow sample_row(std::int64_t step) {
   HistoryRow row;
@@ -30,6 +33,11 @@ HistoryRow sample_row(std::int64_t step) {
   row.kinetic = 1.0 / 3.0;
   row.conduction = -2.5;
   row.momentum = {1.0, -2.0, 4.0};
+  row.escaped_momentum = {0.5, 0.25, 0.125};
+  row.wall_impulse = {-0.0, 3.0, 6.0};
+  row.body_impulse = {5.0, 7.0, 11.0};
+  row.total_momentum = {-3.5, -11.75, -12.875};
+  row.wall_force = 1e9;
   row.guards = 9;
   return row;
 }
@@ -45,12 +53,14 @@ TEST(History, HeaderAndNumbers) {
   EXPECT_EQ(history_header(2), plane_header);
   const std::string solid = history_header(3);
   EXPECT_TRUE(contains(solid, "kinetic [J],")) << solid;
-  EXPECT_TRUE(contains(solid, "momentum_y [kg m/s],momentum_z [kg m/s],guards [-]")) << solid;
+  EXPECT_TRUE(contains(solid, ",momentum_z [kg m/s],escaped_momentum_x [kg m/s],")) << solid;
+  EXPECT_TRUE(contains(solid, ",total_momentum_z [kg m/s],wall_force [N],guards [-]")) << solid;
   EXPECT_EQ(history_line(sample_row(3), 2),
             "1.0000000000000001e-09,3,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,"
-            "1,-2,9");
+            "1,-2,0.5,0.25,-0,3,5,7,-3.5,-11.75,1000000000,9");
   EXPECT_EQ(history_line(sample_row(0), 3),
-            "0,0,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,1,-2,4,9");
+            "0,0,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,1,-2,4,"
+            "0.5,0.25,0.125,-0,3,6,5,7,11,-3.5,-11.75,-12.875,1000000000,9");
 }
 
 TEST(History, RowsAreThereAtOnce) {

@@ -122,6 +122,43 @@ TEST(Conservation, MomentumChangesByTheWallImpulseOnly) {
   EXPECT_NEAR(after.momentum[0], 0.0, 1e-12 * scale);
 }
 
+TEST(Conservation, TotalMomentumOfTheHistoryIsConstant) {
+  const std::vector<std::vector<std::string>> scenes = {
+      {"body_force.acceleration=[1e9, -1e9]"},
+      {"boundary.low=free", "time.end=2e-7"},
+      {"domain.periodic=false", "boundary.lateral=symmetry", "loading.frame=[0.0, 300.0]"}};
+  for (const auto& changes : scenes) {
+    Simulation<2> sim = start<2>(scene_of(porous_text(), changes), MPI_COMM_WORLD);
+    const HistoryRow before = stock(sim);
+    const double scale = 2700.0 * 0.8 * 0.2e-3 * 0.4e-3 * 1100.0;
+    EXPECT_NEAR(before.momentum[1] / scale, changes[0][0] == 'd' ? -8.0 / 11.0 : -1.0, 0.01);
+    advance_to(changes[1 % changes.size()][0] == 't' ? 1000000 : 400, 0, sim);
+    const HistoryRow after = stock(sim);
+    EXPECT_GT(std::abs(after.momentum[1] - before.momentum[1]), 0.05 * scale);
+    for (std::size_t a = 0; a < 2; ++a) {
+      EXPECT_NEAR(after.total_momentum[a], before.total_momentum[a], 1e-12 * scale) << changes[0];
+      const double balance = after.momentum[a] + after.escaped_momentum[a] - after.wall_impulse[a] -
+                             after.body_impulse[a];
+      EXPECT_NEAR(after.total_momentum[a], balance, 1e-12 * scale);
+    }
+  }
+}
+
+TEST(Conservation, WallForceIsTheImpulseOverTime) {
+  Simulation<2> sim = start<2>(scene_of(porous_text()), MPI_COMM_WORLD);
+  EXPECT_EQ(mean_wall_force(sim.ledger, 2, 0.0, MPI_COMM_WORLD), 0.0);
+  double impulse = 0.0, time = 0.0;
+  for (const std::int64_t step : {100, 130, 300}) {
+    advance_to(step, 0, sim);
+    const double force = mean_wall_force(sim.ledger, 2, sim.clock.time, MPI_COMM_WORLD);
+    EXPECT_GT(force, 0.0);
+    impulse += force * (sim.clock.time - time);
+    time = sim.clock.time;
+    mark_row(2, time, sim.ledger);
+  }
+  EXPECT_NEAR(impulse / stock(sim).wall_impulse[1], 1.0, 1e-12);
+}
+
 TEST(Symmetry, ScaledByTwoGivesTheSameBits) {
   // Without conduction the equations have no length: twice the size and time, the same fields.
   const auto fields = [](const std::vector<std::string>& overrides, std::int64_t steps) {

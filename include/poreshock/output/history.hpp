@@ -34,7 +34,13 @@ struct HistoryRow {
   double friction_heat = 0.0;
   double conduction = 0.0;
   std::array<double, 3> momentum{};  ///< kg m/s (kg/s in plane strain, where z is not written)
-  std::int64_t guards = 0;           ///< clamps and floors so far
+  std::array<double, 3> escaped_momentum{};  ///< of particles that left
+  std::array<double, 3> wall_impulse{};      ///< given to the material by walls and symmetry planes
+  std::array<double, 3> body_impulse{};      ///< given by the body force
+  std::array<double, 3> total_momentum{};  ///< momentum + escaped - wall and body impulse: constant
+  double wall_force = 0.0;  ///< N (N/m), shock axis, of walls and symmetry planes on the material,
+                            ///< mean since the row before; 0 in the first row
+  std::int64_t guards = 0;  ///< clamps and floors so far
 };
 
 /// First line of the file, without its end of line.

@@ -29,6 +29,8 @@ struct Ledger {
   Int128 escaped_mass = 0;  ///< quanta of mass, see mass_quantum
   std::array<Int128, 3> escaped_momentum{};
   std::int64_t escaped_particles = 0;
+  Int128 row_wall_impulse = 0;  ///< along the shock axis, when the last history row was written
+  double row_time = 0.0;        ///< s, of the last history row
   Guards guards;
 };
 
@@ -54,6 +56,13 @@ double affine_inertia(const Transfer& transfer, double cell);
 template <int Dim>
 HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials,
                       const Particles<Dim>& particles, const Ledger& ledger, MPI_Comm communicator);
+
+/// Mean force of walls and symmetry planes on the material along the shock axis from the last
+/// mark_row to `time` (s), N (N/m in plane strain); 0 when no time has passed. Collective.
+double mean_wall_force(const Ledger& ledger, int dimension, double time, MPI_Comm communicator);
+
+/// Remembers the wall impulse at `time` for the next mean_wall_force. Not collective.
+void mark_row(int dimension, double time, Ledger& ledger);
 
 /// Books a particle that leaves through an open side. Not collective.
 template <int Dim>
