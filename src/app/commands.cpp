@@ -65,10 +65,11 @@ Scene with_free_settings(Scene stored, const Scene& now) {
   stored.output.beat = beat;
   stored.checkpoint = now.checkpoint;
   stored.morphology = now.morphology;
+  stored.profile = now.profile;
   return stored;
 }
 
-/// On restart only the end, the output, the checkpoints and the morphology may differ; where the
+/// On restart only the end, the output, checkpoints, profiles and morphology may differ; where the
 /// records of the checkpoint's folder go on, the morphology must measure the same as before.
 void require_same_run(const Scene& now, const CheckpointHeader& header, const std::string& path,
                       bool continues) {
@@ -80,7 +81,7 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
   if (with_free_settings(stored, now) != now) {
     throw InputError(path + " was written by a scene that differs in " + differences(now, stored) +
                      "; allowed are differences in the title, time.end, time.max_steps, output, "
-                     "checkpoint and morphology: restart with the scene.toml beside it, or start a "
+                     "checkpoint, profile and morphology: restart with the scene.toml beside it, or start a "
                      "new run");
   }
   const Morphology& a = now.morphology;

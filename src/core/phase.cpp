@@ -11,7 +11,8 @@ std::string_view phase_name(PhaseName phase) {
       "sort",       "filter",      "particles to grid", "exchange",
       "average",    "grid update", "grid to particles", "remap",
       "stress",     "time step",   "migrate",           "rebalance",
-      "morphology", "history",     "snapshot",          "checkpoint"};
+      "morphology", "profile",     "history",           "snapshot",
+      "checkpoint"};
   return names[static_cast<std::size_t>(phase)];
 }
 

@@ -16,16 +16,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 7> own_names = {
-    "scene.toml",   "history.csv", "snapshots.xdmf", "morphology.h5",
-    "timings.json", "failed.h5",   "report.html"};
+constexpr std::array<std::string_view, 8> own_names = {
+    "scene.toml",  "history.csv",  "snapshots.xdmf", "morphology.h5",
+    "profiles.h5", "timings.json", "failed.h5",      "report.html"};
 
 struct SeriesName {
   std::string_view prefix;
   int digits;
 };
-constexpr std::array<SeriesName, 3> own_series = {
-    {{"snapshot_", 6}, {"morphology_", 6}, {"checkpoint_", 9}}};
+constexpr std::array<SeriesName, 4> own_series = {
+    {{"snapshot_", 6}, {"morphology_", 6}, {"profile_", 6}, {"checkpoint_", 9}}};
 
 /// Calls visit(path) for every name a file of ours has, with `ending` added to it.
 template <class Visit>
@@ -94,7 +94,7 @@ void prepare_output_folder(const std::string& path, bool force, bool restart,
 
 void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {
   on_rank_zero(communicator, [&] {
-    for (const std::string_view prefix : {"snapshot_", "morphology_"}) {
+    for (const std::string_view prefix : {"snapshot_", "morphology_", "profile_"}) {
       for (const NumberedFile& file : numbered_files(folder, prefix, 6, ".h5")) {
         if (file.number >= first) remove_file(file.path);
       }

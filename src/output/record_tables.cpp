@@ -14,6 +14,10 @@ namespace poreshock {
 
 namespace {
 
+std::string group_folder(const std::string& group) {
+  return std::string("/").append(group).append("/");
+}
+
 std::vector<NumberedFile> record_files(const std::string& folder, const TableFormat& format) {
   return numbered_files(folder, format.kind + "_", 6, ".h5");
 }
@@ -24,7 +28,7 @@ FileSpec file_spec(const TableFormat& format, const RecordStamp& stamp,
   spec.attributes = root_attributes(format.kind, stamp.time, stamp.step, stamp.scene_text);
   spec.attributes.push_back({"record", stamp.record});
   for (const auto& [group, table] : tables) {
-    const std::string folder = "/" + group + "/";
+    const std::string folder = group_folder(group);
     const std::uint64_t rows = table.records.size();
     spec.datasets.push_back({folder + "record", NumberType::int64, {rows}, "1", {}});
     if (!table.axis.empty()) {
@@ -167,7 +171,7 @@ void write_tables(const std::string& path, const TableFormat& format, const Reco
   Hdf5File file =
       Hdf5File::create(path, file_spec(format, stamp, tables), MPI_COMM_SELF, Replace::yes);
   for (const auto& [group, table] : tables) {
-    const std::string folder = "/" + group + "/";
+    const std::string folder = group_folder(group);
     file.write<std::int64_t>(folder + "record", 0, table.records);
     if (!table.axis.empty()) file.write<double>(folder + format.axis, 0, table.axis);
     for (const auto& [name, series] : table.series) {

@@ -267,6 +267,9 @@ void check_output(const Scene& scene, Report& report) {
   check_beat(scene.output.snapshot, "output.snapshot", true, beat, report);
   check_beat(scene.output.history, "output.history", false, beat, report);
   check_beat(scene.morphology.every, "morphology.every", true, beat, report);
+  if (scene.profile.every != scene.output.snapshot) {  // its default, which is checked above
+    check_beat(scene.profile.every, "profile.every", true, beat, report);
+  }
   check_beat(scene.checkpoint.every_time, "checkpoint.every_time", true, beat, report);
   if (scene.output.fields.empty() && good(report, {"output.fields"})) {
     add_problem("output.fields", "found an empty list, allowed at least one name, or no such key",

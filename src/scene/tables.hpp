@@ -279,6 +279,14 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
 }
 
 template <typename Visitor>
+void visit_profile(Visitor& visitor, Scene& scene) {
+  visitor.fallback(scene.profile.every, scene.output.snapshot);
+  visitor.number("every", scene.profile.every,
+                 {not_negative, "s",
+                  "between records, multiple of output.beat; by default output.snapshot, 0 = off"});
+}
+
+template <typename Visitor>
 void visit_checkpoint(Visitor& visitor, Checkpoint& checkpoint) {
   integer(visitor, "every_steps", checkpoint.every_steps,
           {not_negative, "", "steps between checkpoints; 0 = off"});
@@ -318,6 +326,8 @@ void visit_scene(Visitor& visitor, Scene& scene) {
                 [&](auto& inner) { visit_output(inner, scene.output); });
   visitor.table("morphology", {"Minkowski functionals while the run goes."},
                 [&](auto& inner) { visit_morphology(inner, scene); });
+  visitor.table("profile", {"Averages over rows of cells along the shock axis, and the front."},
+                [&](auto& inner) { visit_profile(inner, scene); });
   visitor.table("checkpoint", {"Checkpoints."},
                 [&](auto& inner) { visit_checkpoint(inner, scene.checkpoint); });
 }

@@ -5,9 +5,11 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/analysis.hpp"
 #include "poreshock/output/morphology_file.hpp"
+#include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/solver/profiles.hpp"
 
 namespace poreshock {
 
@@ -89,6 +91,18 @@ void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 }
 
 template <int Dim>
+void write_profile_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Phase phase(sim.phases, PhaseName::profile);
+  std::int64_t floored = 0;
+  const Profile profile = measure_profile(sim, floored);
+  sim.ledger.guards.temperature += floored;
+  const std::int64_t number = record_number(sim);
+  write_profile(recorder.folder + "/" + profile_name(number),
+                {number, sim.clock.step, sim.clock.time, sim.scene_text}, profile,
+                sim.communicator);
+}
+
+template <int Dim>
 SnapshotInput<Dim> snapshot_input(const Simulation<Dim>& sim) {
   return {sim.scene,          sim.scene_text, sim.materials,  sim.particles,
           record_number(sim), sim.clock.step, sim.clock.time, grid_shift(sim)};
@@ -152,15 +166,19 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Output& output = sim.scene.output;
   const std::int64_t beat = sim.clock.beat;
   const bool all = last || sim.clock.step == 0;
-  // Snapshots and morphology come first: what they floor is counted in the history row.
+  // All others come before the history: what they floor is counted in its row.
   if (recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat))) {
     write_morphology_record(sim, recorder);
   }
+  const std::int64_t profile = beats_of(sim.scene.profile.every, output.beat);
+  if (profile > 0 && (all || due(profile, beat))) write_profile_record(sim, recorder);
   if (all || due(beats_of(output.snapshot, output.beat), beat))
     write_snapshot_record(sim, recorder);
   const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
   if (all || due(history, beat)) write_history(sim, recorder);
-  if (last) collect_morphology(recorder.folder, sim.communicator);
+  if (!last) return;
+  collect_morphology(recorder.folder, sim.communicator);
+  collect_profiles(recorder.folder, sim.communicator);
 }
 
 template <int Dim>

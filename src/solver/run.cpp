@@ -9,6 +9,7 @@
 #include "poreshock/output/folder.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/posix_file.hpp"
+#include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/progress.hpp"
@@ -153,6 +154,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   // A run that is already at its end writes no records again.
   if (restarted && !at_end(scene.time, sim.clock)) {
     remove_morphology_from(options.folder, sim.clock.beat + 1, communicator);
+    remove_profiles_from(options.folder, sim.clock.beat + 1, communicator);
     remove_records_from(options.folder, sim.clock.beat + 1, communicator);
   }
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, std::move(pixels), sim);

@@ -23,6 +23,7 @@ class Restart(ProgramTest):
         self.assertEqual((self.folder / name / "history.csv").read_bytes(),
                          (self.folder / "whole/history.csv").read_bytes())
         self.assert_same_datasets(f"{name}/morphology.h5", "whole/morphology.h5")
+        self.assert_same_datasets(f"{name}/profiles.h5", "whole/profiles.h5")
         names = sorted(path.name for path in (self.folder / name).glob("*[!0-9]_0*.h5")
                        if not path.name.startswith("checkpoint"))
         self.assertEqual(names, sorted(path.name for path in (self.folder / "whole").glob("snapshot_*.h5")))

@@ -62,7 +62,7 @@ class RefusedRestart(ProgramTest):
                             scene="balls.toml", output="balls", ranks=2)
 
     def test_other_physics(self):
-        allowed = ("; allowed are differences in the title, time.end, time.max_steps, output, checkpoint and morphology: "
+        allowed = ("; allowed are differences in the title, time.end, time.max_steps, output, checkpoint, profile and morphology: "
                    "restart with the scene.toml beside it, or start a new run")
         written = f"{self.checkpoint} was written by a scene that differs in "
         self.refuse_restart(written + "loading" + allowed, "latest", "--set", "loading.velocity=1400", ranks=2)

@@ -22,7 +22,8 @@ class FinishedRun(ProgramTest):
 
     def test_folder_holds_what_the_scene_asks_for(self):
         newest = [25 * (self.steps // 25 - k) for k in (2, 1, 0)]
-        expected = sorted(["scene.toml", "history.csv", "snapshots.xdmf", "morphology.h5", "timings.json",
+        expected = sorted(["scene.toml", "history.csv", "snapshots.xdmf", "morphology.h5", "profiles.h5",
+                           "timings.json",
                            *SNAPSHOTS, *(f"checkpoint_{step:09d}.h5" for step in newest)])
         for n in RANKS:
             self.assertEqual(sorted(p.name for p in (self.folder / f"on{n}").iterdir()), expected)
@@ -59,6 +60,36 @@ class FinishedRun(ProgramTest):
             self.assertLess(abs(sum(sums) - total), 1e-12 * total, name)
             self.assertLess(abs(sums[0] - rows["kinetic"][row]), 1e-12 * total, name)
 
+    def test_profiles_are_the_averages_of_the_snapshots(self):
+        profile = datasets(self.folder / "on1/profiles.h5")
+        numpy.testing.assert_array_equal(profile["row/time"], [0.0, 10e-9, 20e-9])
+        numpy.testing.assert_array_equal(profile["row/record"], [0, 4, 8])
+        numpy.testing.assert_allclose(profile["row/height"], 1e-5 * (numpy.arange(48) + 0.5), rtol=1e-14)
+        edge, spacing = 1e-5, 5e-6
+        bottom = edge * numpy.arange(48)
+        bottom[0] = -1.0  # what a particle has below the wall counts in the lowest row
+        for index, name in enumerate(SNAPSHOTS):
+            with h5py.File(self.folder / "on1" / name) as file:
+                at = {field: item[...] for field, item in file["particles"].items()}
+            volume, y = at["mass"] / at["density"], at["position"][:, 1]
+            length = numpy.minimum(edge, volume / spacing)
+            low = numpy.maximum(bottom[:, None], (y - 0.5 * length)[None])
+            high = numpy.minimum(edge * numpy.arange(1, 49)[:, None], (y + 0.5 * length)[None])
+            share = numpy.maximum(high - low, 0.0) / length
+            with numpy.errstate(invalid="ignore"):
+                expected = {"solid_fraction": share @ volume / (0.2e-3 * edge),
+                            "density": share @ at["mass"] / (share @ volume),
+                            "stress": share @ (-volume * at["stress"][:, 1]) / (share @ volume),
+                            "temperature": share @ (at["mass"] * at["temperature"]) / (share @ at["mass"]),
+                            "pressure": share @ (volume * at["pressure"]) / (share @ volume),
+                            "velocity_y": share @ (at["mass"] * at["velocity"][:, 1]) / (share @ at["mass"])}
+            for field, values in expected.items():
+                if field != "solid_fraction":
+                    values[expected["solid_fraction"] < 1e-4] = numpy.nan
+                scale = numpy.nanmax(abs(values))
+                numpy.testing.assert_allclose(profile[f"row/{field}"][index], values, rtol=0,
+                                              atol=1e-12 * scale, err_msg=f"{field} of {name}")
+
     def test_snapshots_are_the_same_on_any_number_of_ranks(self):
         for name in SNAPSHOTS:
             one = particles(self.folder / "on1" / name)
@@ -73,6 +104,7 @@ class FinishedRun(ProgramTest):
     def test_history_and_morphology_are_the_same_on_any_number_of_ranks(self):
         for n in RANKS[1:]:
             self.assert_same_datasets("on1/morphology.h5", f"on{n}/morphology.h5")
+            self.assert_same_datasets("on1/profiles.h5", f"on{n}/profiles.h5")
             self.assertEqual((self.folder / "on1/history.csv").read_bytes(),
                              (self.folder / f"on{n}/history.csv").read_bytes())
 
@@ -123,6 +155,7 @@ class FinishedRun(ProgramTest):
             calls = {phase["name"]: phase["calls"] for phase in timings["phases"]}
             self.assertEqual(calls["stress"], self.steps)
             self.assertEqual((calls["snapshot"], calls["history"], calls["morphology"]), (3, 9, 5))
+            self.assertEqual(calls["profile"], 3)
 
     def test_resolved_scene_gives_the_same_run(self):
         result = self.run_scene("on1/scene.toml", "again")

@@ -153,6 +153,9 @@ TEST(Contradictions, Beat) {
               "--set " + change + ": output." + key + ": found 7.5e-09 s, allowed " +
                   (key == "snapshot" ? "0 or " : "") + "whole multiples of output.beat = 5e-09 s");
   }
+  EXPECT_EQ(override_problems("profile.every=1e-9"),
+            "--set profile.every=1e-9: profile.every: found 1e-09 s, allowed 0 or whole multiples "
+            "of output.beat = 5e-09 s");
   EXPECT_EQ(override_problems("checkpoint.every_time=1e-9"),
             "--set checkpoint.every_time=1e-9: checkpoint.every_time: found 1e-09 s, allowed 0 or "
             "whole multiples of output.beat = 5e-09 s");

@@ -42,6 +42,9 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.output.fields.size(), 14u);
   EXPECT_EQ(scene.morphology.pixel, 1e-5);
   EXPECT_EQ(scene.morphology.every, 0.0);
+  EXPECT_EQ(scene.profile.every, 0.0);
+  EXPECT_EQ(parse(small_scene(), {"output.snapshot=2e-8"}).profile.every, 2e-8);
+  EXPECT_EQ(parse(small_scene(), {"output.snapshot=2e-8", "profile.every=0"}).profile.every, 0.0);
   EXPECT_EQ(scene.checkpoint, Checkpoint{});
 }
 

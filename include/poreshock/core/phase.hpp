@@ -24,6 +24,7 @@ enum class PhaseName {
   migrate,
   rebalance,
   morphology,
+  profile,
   history,
   snapshot,
   checkpoint,

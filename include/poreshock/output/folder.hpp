@@ -19,8 +19,8 @@ void require_output_folder(const std::string& path, bool force, bool restart,
 void prepare_output_folder(const std::string& path, bool force, bool restart,
                            MPI_Comm communicator);
 
-/// Removes snapshots and morphology files of record `first` and later, which a restarted run is
-/// about to write again. Rank 0 works. Collective.
+/// Removes snapshots, morphology and profile files of record `first` and later, which a restarted
+/// run is about to write again. Rank 0 works. Collective.
 void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm communicator);
 
 }  // namespace poreshock

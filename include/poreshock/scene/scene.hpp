@@ -136,6 +136,12 @@ struct Morphology {
   bool operator==(const Morphology&) const = default;
 };
 
+/// Averages over rows of cells along the shock axis.
+struct ProfileOutput {
+  double every = 0.0;  ///< s, 0 = off; derived default: output.snapshot
+  bool operator==(const ProfileOutput&) const = default;
+};
+
 struct Checkpoint {
   std::int64_t every_steps = 0;  ///< 0 = off
   double every_time = 0.0;       ///< s of simulated time, 0 = off
@@ -161,6 +167,7 @@ struct Scene {
   TimeControl time;
   Output output;
   Morphology morphology;
+  ProfileOutput profile;
   Checkpoint checkpoint;
   bool operator==(const Scene&) const = default;
 };
