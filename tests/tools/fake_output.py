@@ -6,6 +6,12 @@ import numpy
 
 WIDTH, HEIGHT, CELL = 0.4e-3, 2.0e-3, 10e-6
 SPEED, FRONT, HOT = 1100.0, 5700.0, 480.0  # m/s, m/s relative to the wall, K
+WALL_STRESS = 6.9e9  # Pa
+# Behind the made-up front: rows of the profiles, in SI units.
+BEHIND = {"solid_fraction": 0.99, "density": 2850.0, "pressure": 6.8e9, "stress": 7.0e9, "temperature": 980.0,
+          "plastic_strain": 0.6, "velocity_x": 0.0, "velocity_y": 0.0, "fluctuation": 880.0}
+AHEAD = {"solid_fraction": 0.7, "density": 2700.0, "pressure": 0.0, "stress": 0.0, "temperature": 300.0,
+         "plastic_strain": 0.0, "velocity_x": 0.0, "velocity_y": -SPEED, "fluctuation": 0.0}
 THRESHOLDS = numpy.arange(310.0, 700.0, 10.0)
 
 SCENE = """title = "Porous aluminium, made up"
@@ -13,15 +19,36 @@ thermal = "{thermal}"
 [domain]
 size = [0.4e-3, 2.0e-3]
 cell = 10e-6
+[boundary]
+low = {{ kind = "wall", velocity = 0.0 }}
+high = {{ kind = "free", velocity = 0.0 }}
+[loading]
+velocity = 1100.0
+[sample]
+kind = "random_voids"
+material = "aluminium"
+height = 1.8e-3
+porosity = 0.3
+void_radius = 40e-6
 [[material]]
 name = "aluminium"
+density = 2700.0
+young = 69e9
+poisson = 0.33
+yield = 120e6
+hardening = 384e6
+c0 = 5350.0
+lambda = 1.34
+gamma = 2.0
+cv = 880.0
 T0 = 300.0
 """
 
 HISTORY = ("time [s],step [-],dt [s],particles [-],kinetic [J/m],internal [J/m],escaped [J/m],"
            "wall_work [J/m],body_work [J/m],total [J/m],elastic [J/m],plastic_work [J/m],"
            "viscous_heat [J/m],filter_heat [J/m],wall_heat [J/m],contact_heat [J/m],"
-           "friction_heat [J/m],conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],guards [-]")
+           "friction_heat [J/m],conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],wall_impulse_y [kg/s],"
+           "guards [-]")
 
 
 def _lattice(dimension):
@@ -67,6 +94,26 @@ def write_morphology(folder, times):
             group["chi"] = [-0.01 * done * (THRESHOLDS - HOT) / 100.0 * hot * (1.0 - hot)]
 
 
+def write_profiles(folder, times, speed=3300.0, whole=True):
+    """A sharp front of shock speed `speed` in profiles.h5, or in one small file per record."""
+    height = CELL * (numpy.arange(round(HEIGHT / CELL)) + 0.5)
+    front = (speed - SPEED) * numpy.asarray(times)
+    top = 1.8e-3 - SPEED * numpy.asarray(times)
+    behind, solid = height < front[:, None], height < top[:, None]
+    row = {name: numpy.where(solid, numpy.where(behind, BEHIND[name], AHEAD[name]), numpy.nan) for name in BEHIND}
+    row["solid_fraction"] = numpy.where(solid, row["solid_fraction"], 0.0)
+    common = {"time": numpy.asarray(times), "step": numpy.arange(len(times)), "record": numpy.arange(len(times))}
+    row |= common | {"shift": numpy.zeros(len(times))}
+    fronts = common | {"position": numpy.where(front > 0.0, front, numpy.nan), "width": numpy.full(len(times), CELL)}
+    pieces = [slice(None)] if whole else [slice(i, i + 1) for i in range(len(times))]
+    for i, piece in enumerate(pieces):
+        with h5py.File(folder / ("profiles.h5" if whole else f"profile_{i:06d}.h5"), "w") as file:
+            file["row/height"] = height
+            for group, columns in (("row", row), ("front", fronts)):
+                for name, values in columns.items():
+                    file[f"{group}/{name}"] = values[piece]
+
+
 def write_history(folder, times):
     rows = [HISTORY]
     for number, time in enumerate(times):
@@ -74,7 +121,8 @@ def write_history(folder, times):
         total = 1000.0 * (1.0 + 1e-13 * number)
         rows.append(",".join(f"{entry:.17g}" for entry in (
             time, number * 10, 1e-10, 48000, kinetic, total - kinetic, 0, 0, 0, total, 0.05 * done,
-            0.4 * done, 0.5 * done, 0.04 * done, 0.01 * done, 0, 0, 0, 0, -1.0 + time, 3)))
+            0.4 * done, 0.5 * done, 0.04 * done, 0.01 * done, 0, 0, 0, 0, -1.0 + time,
+            WALL_STRESS * WIDTH * time, 3)))
     (folder / "history.csv").write_text("\n".join(rows) + "\n1.0,2")  # the last row is cut
 
 
@@ -92,5 +140,6 @@ def write_output(folder, thermal="paper", dimension=2):
     (folder / "scene.toml").write_text(SCENE.format(thermal=thermal))
     write_snapshots(folder, [0.0, 50e-9, 100e-9, 150e-9, 200e-9], dimension)
     write_morphology(folder, numpy.linspace(0.0, 200e-9, 21))
+    write_profiles(folder, numpy.linspace(0.0, 200e-9, 41))
     write_history(folder, numpy.linspace(0.0, 200e-9, 101))
     write_timings(folder)

@@ -12,8 +12,9 @@ from fake_output import THRESHOLDS, write_output  # noqa: E402
 from poreshock_report import figures, folder, page  # noqa: E402
 
 FIGURES = ("Figure 1: temperature", "Figure 2: morphology against time", "Figure 3: the A-L-chi space",
-           "Energy ledger")
-PICTURES = {"temperature.png", "morphology_time.png", "morphology_space.png", "energy.png"}
+           "Profiles along the shock axis", "Path of the front", "Energy ledger")
+PICTURES = {"temperature.png", "morphology_time.png", "morphology_space.png", "energy.png",
+            "profiles.png", "front.png"}
 
 
 class Report(unittest.TestCase):
@@ -27,11 +28,12 @@ class Report(unittest.TestCase):
         text = page.write(self.folder).read_text()
         for title in FIGURES:
             self.assertIn(f"<h2>{title}</h2>", text)
-        self.assertEqual(text.count('src="data:image/png;base64,'), 4)
+        self.assertEqual(text.count('src="data:image/png;base64,'), 6)
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', text), [])
         self.assertNotIn("http", re.sub(r'base64,[^"]*', "", text))
         self.assertNotIn("Missing:", text)
         self.assertIn("Thermal mode: paper.", text)
+        self.assertIn("<td>Us [m/s]</td><td>3300.0</td>", text)
         self.assertEqual({path.name for path in (self.folder / "pictures").iterdir()}, PICTURES)
 
     def test_final_numbers(self):
@@ -70,9 +72,9 @@ class Report(unittest.TestCase):
         self.folder.mkdir()
         text = page.write(self.folder).read_text()
         for words in ("there is no morphology.h5", "there is no timings.json", "there is no history.csv",
-                      "there is no snapshot_*.h5", "there is no scene.toml"):
+                      "there is no snapshot_*.h5", "there is no scene.toml", "there is no profiles.h5"):
             self.assertIn(words, text)
-        for title in FIGURES:
+        for title in (*FIGURES, "State behind the shock"):
             self.assertIn(f"Missing: {title}", text)
         self.assertNotIn("<img", text)
 

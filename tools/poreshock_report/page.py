@@ -9,6 +9,7 @@ import numpy
 
 from . import figures
 from . import folder as reader
+from . import profile_figures, profiles
 
 STYLE = """
 :root { color-scheme: light; }
@@ -119,6 +120,17 @@ def final_numbers(folder, title, thermal):
             f"</section><section>{phases}</section>")
 
 
+def hugoniot_table(folder):
+    """Section with the state behind the shock beside the Hugoniots."""
+    title = "State behind the shock"
+    try:
+        rows, notes = profiles.compare(folder)
+    except reader.Missing as reason:
+        return f"<section><h2>{title}</h2>{missing(title, reason)}</section>"
+    text = "".join(f'<p class="note">{html.escape(note)}</p>' for note in notes)
+    return f"<section><h2>{title}</h2>{table(profiles.HEAD, rows)}{text}</section>"
+
+
 def write(folder):
     """Writes report.html and pictures/ into `folder`; returns the path of the page."""
     notes = ""
@@ -139,6 +151,14 @@ def write(folder):
                 lambda: figures.morphology_time(folder, start)),
         picture(folder, "morphology_space", "Figure 3: the A-L-chi space", "The curves of Figure 2 without "
                 "the time; every record is a dot.", lambda: figures.morphology_space(folder, start)),
+        picture(folder, "profiles", "Profiles along the shock axis", "Averages over rows of cells: velocity, "
+                "temperature and fluctuation weighted with mass, stress with volume (compression positive). The "
+                "fluctuation is the kinetic energy of the deviation from the mean velocity of the row.",
+                lambda: profile_figures.profiles(folder)),
+        picture(folder, "front", "Path of the front", "Where the row mean of the velocity, seen from the top, first "
+                "is half of the way to the wall's; below: distance from the straight line.",
+                lambda: profile_figures.front(folder)),
+        hugoniot_table(folder),
         picture(folder, "energy", "Energy ledger", "Above: kinetic, internal and total energy. Middle: where the "
                 "energy went. Below: how far the total is from its first value.",
                 lambda: figures.energy(folder)),

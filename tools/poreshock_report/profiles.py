@@ -1,0 +1,252 @@
+"""Reads profiles.h5 and measures the shock in it: its speed and the state behind it."""
+from dataclasses import dataclass
+
+import h5py
+import numpy
+
+import plate_exact
+
+from . import folder as reader
+from . import hugoniot
+
+WALL = 5  # cells at the wall left out of the state
+ENTRY = 20  # cells, and two void diameters: the front counts only when it is that far from the wall
+DISTANCE = 10  # cells, and two void diameters: the state counts only that far behind the front
+LEAST_ROWS = 10
+LEAST_RECORDS = 5
+
+
+@dataclass(frozen=True)
+class Profiles:
+    """Records of a run: n times, rows of the grid."""
+    time: numpy.ndarray  # s, n
+    height: numpy.ndarray  # m above the low side of the grid, rows
+    front: numpy.ndarray  # m above the low side of the grid, n, NaN without a front
+    width: numpy.ndarray  # m, n
+    row: dict  # name -> n x rows; `velocity` is the one along the shock axis
+
+
+def read(folder):
+    """All records of a folder, from profiles.h5 or from the small files of an unfinished run."""
+    whole = folder / "profiles.h5"
+    paths = ([whole] if whole.exists() else []) + sorted(folder.glob("profile_*.h5"))
+    if not paths:
+        raise reader.Missing("there is no profiles.h5 and no profile_*.h5 "
+                             "(the scene needs [profile] every > 0)")
+    found, rows = {}, None
+    for path in paths:
+        try:
+            with h5py.File(path, "r") as file:
+                data = {f"{group}/{name}": item[()] for group in ("row", "front")
+                        for name, item in file[group].items()}
+            rows = data["row/height"] if rows is None else rows
+            if not numpy.array_equal(rows, data["row/height"]):
+                raise ValueError("its rows are not those of the other records")
+            for i, number in enumerate(data["row/record"]):
+                found[int(number)] = {name: data[name][i] for name in data if name != "row/height"}
+        except (OSError, KeyError, ValueError) as error:
+            problem = reader.Missing(f"{path.name} cannot be read: {error}")
+    if not found:
+        raise problem
+    records = [found[number] for number in sorted(found)]
+    columns = {name: numpy.array([record[name] for record in records]) for name in records[0]}
+    row = {name[4:]: values for name, values in columns.items()
+           if name.startswith("row/") and values.ndim == 2}
+    row["velocity"] = row.get("velocity_z", row["velocity_y"])
+    return Profiles(columns["row/time"], rows, columns["front/position"], columns["front/width"], row)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What a scene says about its shock, SI units."""
+    material: plate_exact.Material
+    dimension: int
+    cell: float
+    velocity: float  # of the low wall relative to the material ahead
+    height: float
+    void_diameter: float
+    void_fraction: float  # the wanted one
+    thermal: str
+
+
+def setting_of(scene):
+    """Setting of a resolved scene with a wall at the low side."""
+    try:
+        low = scene["boundary"]["low"]
+        low = low if isinstance(low, dict) else {"kind": low}
+        sample, size = scene["sample"], scene["domain"]["size"]
+        names = [material["name"] for material in scene["material"]]
+        if low["kind"] not in ("wall", "symmetry") or sample["kind"] == "none":
+            raise reader.Missing("the shock is measured in a [sample] on a wall at the low side")
+        chosen = scene["material"][names.index(sample.get("material", names[0]))]
+        voids = sample["kind"] == "random_voids"
+        return Setting(plate_exact.material_from_scene(chosen), len(size), scene["domain"]["cell"],
+                       scene["loading"]["velocity"] + low.get("velocity", 0.0),
+                       sample.get("height", size[-1]),
+                       2.0 * sample.get("void_radius", 0.0) if voids else 0.0,
+                       sample.get("porosity", 0.0) if voids else 0.0, str(scene.get("thermal")))
+    except (KeyError, ValueError) as error:
+        raise reader.Missing(f"scene.toml does not describe the shock: {error}") from None
+
+
+@dataclass(frozen=True)
+class FrontFit:
+    """Straight line through the heights of the front: height = start + slope x time."""
+    start: float  # m
+    slope: float  # m/s relative to the wall
+    error: float  # m/s, standard error of the slope
+    scatter: float  # m, root mean square of what is left
+    used: numpy.ndarray  # indices of the records
+
+
+def fit_front(profiles, setting):
+    """Fit of the front over all records in which it is far enough from the wall."""
+    entry = max(ENTRY * setting.cell, 2.0 * setting.void_diameter)
+    with numpy.errstate(invalid="ignore"):
+        used = numpy.flatnonzero(profiles.front >= entry)
+    if len(used) < LEAST_RECORDS:
+        raise reader.Missing(f"the front is further than {1e6 * entry:.4g} um from the wall in {len(used)} records, "
+                             f"and {LEAST_RECORDS} are needed: ask for more with [profile] every")
+    time, front = profiles.time[used], profiles.front[used]
+    slope, start = numpy.polyfit(time - time.mean(), front, 1)
+    rest = front - start - slope * (time - time.mean())
+    error = numpy.sqrt(numpy.sum(rest**2) / (len(used) - 2) / numpy.sum((time - time.mean())**2))
+    return FrontFit(start - slope * time.mean(), slope, float(error), float(numpy.sqrt(numpy.mean(rest**2))), used)
+
+
+@dataclass(frozen=True)
+class State:
+    """Averages behind the front; stress and density over solid and voids together."""
+    records: int
+    low: float  # m, where the windows begin
+    distance: float  # m, where they end below the front
+    names: tuple  # of mean and spread
+    mean: numpy.ndarray
+    spread: numpy.ndarray  # standard deviation between the records
+
+    def __getitem__(self, name):
+        return self.mean[self.names.index(name)]
+
+
+NAMES = ("velocity", "stress", "density", "void_fraction", "temperature", "fluctuation")
+
+
+def window_means(profiles, record, low, high):
+    """Number of rows between two heights and their means, in the order of NAMES; None without enough rows."""
+    inside = (profiles.height > low) & (profiles.height < high)
+    row = {name: values[record][inside] for name, values in profiles.row.items()}
+    if inside.sum() < LEAST_ROWS or not numpy.all(numpy.isfinite(row["density"])):
+        return None
+    solid, velocity = row["solid_fraction"], profiles.row["velocity"][record]
+    mass = solid * row["density"]
+    # The highest row with material is untouched as long as there is a front.
+    ahead = velocity[numpy.isfinite(velocity)][-1]
+    return inside.sum(), (numpy.average(row["velocity"], weights=mass) - ahead, numpy.mean(solid * row["stress"]),
+                          numpy.mean(mass), 1.0 - numpy.mean(solid),
+                          numpy.average(row["temperature"], weights=mass),
+                          numpy.average(row["fluctuation"], weights=mass))
+
+
+def state_behind(profiles, setting, fit):
+    """Mean state between wall and front over the records of the fit, each weighted with its rows."""
+    low = WALL * setting.cell
+    distance = max(DISTANCE * setting.cell, 2.0 * setting.void_diameter)
+    windows = [window_means(profiles, record, low, profiles.front[record] - distance) for record in fit.used]
+    windows = [window for window in windows if window]
+    if not windows:
+        raise reader.Missing(f"there are never {LEAST_ROWS} filled rows between the wall and the front: "
+                             "let the run end later")
+    weights, values = (numpy.array(column) for column in zip(*windows))
+    mean = numpy.average(values, axis=0, weights=weights)
+    spread = numpy.sqrt(numpy.average((values - mean)**2, axis=0, weights=weights))
+    return State(len(windows), low, distance, NAMES, mean, spread)
+
+
+def void_fraction(profiles, setting):
+    """Void fraction of the sample as it was made, from the first record; the wanted one without it."""
+    if profiles.time[0] > 0.0:
+        return setting.void_fraction
+    solid = profiles.row["solid_fraction"][0].sum() * setting.cell
+    return max(0.0, 1.0 - solid / setting.height)
+
+
+def wall_stress(folder, scene, profiles, fit):
+    """Mean stress that the wall bears over the records of the fit, Pa; NaN where it cannot be told."""
+    try:
+        columns, _ = reader.read_history(folder)
+        impulse = columns[f"wall_impulse_{'xyz'[len(scene['domain']['size']) - 1]}"]
+    except (reader.Missing, KeyError):
+        return numpy.nan
+    ends = profiles.time[fit.used[[0, -1]]]
+    high = scene["boundary"]["high"]
+    high = high["kind"] if isinstance(high, dict) else high
+    if high != "free" or ends[1] > columns["time"][-1]:
+        return numpy.nan
+    area = float(numpy.prod(scene["domain"]["size"][:-1]))
+    return float(numpy.diff(numpy.interp(ends, columns["time"], impulse))[0] / (ends[1] - ends[0]) / area)
+
+
+def references(setting, voids):
+    """Rows (Us, Up, P, P, rho, T, T) of the Hugoniots: solid with strength, snow-plow, P-alpha; None where undefined."""
+    def row(state, speed, stress):
+        return (speed, setting.velocity, stress, stress, state.density, state.temperature, state.temperature)
+
+    try:
+        solid = plate_exact.solve(setting.material, setting.velocity).final
+        first = row(solid, solid.front, solid.stress)
+        plow = hugoniot.snow_plow(setting.material, voids, setting.velocity)
+    except ValueError:
+        raise reader.Missing("the impact is elastic, or beyond the equation of state") from None
+    alpha = None
+    if voids > 1e-3:
+        state = hugoniot.p_alpha(setting.material, voids, setting.velocity, setting.dimension)
+        alpha = row(state, state.speed, state.pressure)
+    return first, row(plow, plow.speed, plow.pressure), alpha
+
+
+HEAD = ("quantity", "measured", "+-", "solid", "error", "snow-plow", "error", "P-alpha", "error")
+QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e9, ".4f"),
+              ("P at the wall [GPa]", 1e9, ".4f"), ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
+              ("T + fluctuation / c_v [K]", 1.0, ".1f"))
+
+
+def compare(folder):
+    """Rows of the Hugoniot table (HEAD) of a run, and sentences that say how it was measured."""
+    scene = reader.read_scene(folder)
+    setting, profiles = setting_of(scene), read(folder)
+    fit = fit_front(profiles, setting)
+    state = state_behind(profiles, setting, fit)
+    voids = void_fraction(profiles, setting)
+    spread = dict(zip(state.names, state.spread))
+    cv = setting.material.cv
+    measured = (fit.slope + setting.velocity, state["velocity"], state["stress"],
+                wall_stress(folder, scene, profiles, fit), state["density"], state["temperature"],
+                state["temperature"] + state["fluctuation"] / cv)
+    errors = (fit.error, spread["velocity"], spread["stress"], numpy.nan, spread["density"], spread["temperature"],
+              numpy.nan)
+    curves, rows = references(setting, voids), []
+    for i, (name, unit, digits) in enumerate(QUANTITIES):
+        if not numpy.isfinite(measured[i]):
+            continue
+        row = [name, format(measured[i] / unit, digits),
+               format(errors[i] / unit, digits) if numpy.isfinite(errors[i]) else "-"]
+        for curve in curves:
+            row += ["-", "-"] if curve is None else [
+                format(curve[i] / unit, digits), f"{100.0 * (measured[i] / curve[i] - 1.0):+.2f} %"]
+        rows.append(row)
+    used = profiles.front[fit.used]
+    notes = [
+        f"Void fraction {voids:.4f}, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
+        f"Us: straight line through {len(used)} heights of the front from {1e3 * used[0]:.3f} to "
+        f"{1e3 * used[-1]:.3f} mm above the wall ({1e9 * profiles.time[fit.used[0]]:.4g} to "
+        f"{1e9 * profiles.time[fit.used[-1]]:.4g} ns), plus the velocity of the wall relative to the material "
+        f"ahead; its +- is the standard error of the slope for independent heights, which scatter by {1e6 * fit.scatter:.2g} um.",
+        f"State: means over {state.records} of these records and the rows from {1e3 * state.low:.3f} mm "
+        f"above the wall to {1e3 * state.distance:.3f} mm below the front; +- is the standard deviation between "
+        f"records. {100.0 * max(state['void_fraction'], 0.0):.2f} % of these rows is void. P is the longitudinal stress and "
+        "rho the density, of solid and voids together; P at the wall is the wall impulse over area and time.",
+        "Curves: the solid with strength, complete collapse without strength (snow-plow), and P-alpha with the "
+        f"static crush curve of {'cylinders' if setting.dimension == 2 else 'spheres'}."]
+    if setting.thermal == "paper":
+        notes.append("The curves hold for thermal = \"conserving\"; in paper mode T leaves out heat that the curves have.")
+    return rows, notes
