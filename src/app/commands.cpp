@@ -79,10 +79,11 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
   }
   const Scene stored = parse_scene(header.scene_text, path);
   if (with_free_settings(stored, now) != now) {
-    throw InputError(path + " was written by a scene that differs in " + differences(now, stored) +
-                     "; allowed are differences in the title, time.end, time.max_steps, output, "
-                     "checkpoint, profile and morphology: restart with the scene.toml beside it, or start a "
-                     "new run");
+    throw InputError(
+        path + " was written by a scene that differs in " + differences(now, stored) +
+        "; allowed are differences in the title, time.end, time.max_steps, output, "
+        "checkpoint, profile and morphology: restart with the scene.toml beside it, or start a "
+        "new run");
   }
   const Morphology& a = now.morphology;
   const Morphology& b = stored.morphology;

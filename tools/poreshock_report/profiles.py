@@ -187,7 +187,7 @@ def wall_stress(folder, scene, profiles, fit):
 
 
 def references(setting, voids):
-    """Rows (Us, Up, P, P, rho, T, T) of the Hugoniots: solid with strength, snow-plow, P-alpha; None where undefined."""
+    """Rows (Us, Up, P, P, rho, T, T) of solid with strength, snow-plow and P-alpha; None where undefined."""
     def row(state, speed, stress):
         return (speed, setting.velocity, stress, stress, state.density, state.temperature, state.temperature)
 
@@ -208,6 +208,27 @@ HEAD = ("quantity", "measured", "+-", "solid", "error", "snow-plow", "error", "P
 QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e9, ".4f"),
               ("P at the wall [GPa]", 1e9, ".4f"), ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
               ("T + fluctuation / c_v [K]", 1.0, ".1f"))
+
+
+def method(setting, profiles, fit, state, voids):
+    """Sentences that say how the numbers of a table were measured."""
+    used = profiles.front[fit.used]
+    notes = [
+        f"Void fraction {voids:.4f}, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
+        f"Us: straight line through {len(used)} heights of the front from {1e3 * used[0]:.3f} to "
+        f"{1e3 * used[-1]:.3f} mm above the wall ({1e9 * profiles.time[fit.used[0]]:.4g} to "
+        f"{1e9 * profiles.time[fit.used[-1]]:.4g} ns), plus the velocity of the wall relative to the material "
+        f"ahead; its +- is the standard error of the slope for independent heights, which scatter by "
+        f"{1e6 * fit.scatter:.2g} um.",
+        f"State: means over {state.records} of these records and the rows from {1e3 * state.low:.3f} mm "
+        f"above the wall to {1e3 * state.distance:.3f} mm below the front; +- is the standard deviation between "
+        f"records. {100.0 * max(state['void_fraction'], 0.0):.2f} % of these rows is void. P is the longitudinal "
+        "stress and rho the density, of solid and voids together; P at the wall is the wall impulse over area and time.",
+        "Curves: the solid with strength, complete collapse without strength (snow-plow), and P-alpha with the "
+        f"static crush curve of {'cylinders' if setting.dimension == 2 else 'spheres'}."]
+    if setting.thermal == "paper":
+        notes.append("The curves hold for thermal = \"conserving\"; in paper mode T leaves out heat that they have.")
+    return notes
 
 
 def compare(folder):
@@ -234,19 +255,4 @@ def compare(folder):
             row += ["-", "-"] if curve is None else [
                 format(curve[i] / unit, digits), f"{100.0 * (measured[i] / curve[i] - 1.0):+.2f} %"]
         rows.append(row)
-    used = profiles.front[fit.used]
-    notes = [
-        f"Void fraction {voids:.4f}, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
-        f"Us: straight line through {len(used)} heights of the front from {1e3 * used[0]:.3f} to "
-        f"{1e3 * used[-1]:.3f} mm above the wall ({1e9 * profiles.time[fit.used[0]]:.4g} to "
-        f"{1e9 * profiles.time[fit.used[-1]]:.4g} ns), plus the velocity of the wall relative to the material "
-        f"ahead; its +- is the standard error of the slope for independent heights, which scatter by {1e6 * fit.scatter:.2g} um.",
-        f"State: means over {state.records} of these records and the rows from {1e3 * state.low:.3f} mm "
-        f"above the wall to {1e3 * state.distance:.3f} mm below the front; +- is the standard deviation between "
-        f"records. {100.0 * max(state['void_fraction'], 0.0):.2f} % of these rows is void. P is the longitudinal stress and "
-        "rho the density, of solid and voids together; P at the wall is the wall impulse over area and time.",
-        "Curves: the solid with strength, complete collapse without strength (snow-plow), and P-alpha with the "
-        f"static crush curve of {'cylinders' if setting.dimension == 2 else 'spheres'}."]
-    if setting.thermal == "paper":
-        notes.append("The curves hold for thermal = \"conserving\"; in paper mode T leaves out heat that the curves have.")
-    return rows, notes
+    return rows, method(setting, profiles, fit, state, voids)
