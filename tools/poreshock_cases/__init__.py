@@ -1,0 +1,1 @@
+"""Runs the program on scenes with a known outcome and judges what it wrote."""

@@ -1,0 +1,71 @@
+"""Rows of figures with the bar each has to meet, and their markdown table."""
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure of a case; `ok` is None where it is shown only."""
+    case: str
+    figure: str
+    value: str
+    bar: str
+    ok: bool | None
+
+
+def limit(case, figure, value, bar, form=".2g"):
+    """A figure whose size must stay below `bar`."""
+    return Row(case, figure, f"{value:{form}}", f"< {bar:g}", bool(abs(value) < bar))
+
+
+def near(case, figure, value, exact, share, form=".5g", unit="", scale=1.0):
+    """A figure that may differ from the exact one by `share` of it."""
+    error = value / exact - 1.0
+    return Row(case, figure, f"{value / scale:{form}}{unit} ({100.0 * error:+.2f} %)",
+               f"{exact / scale:{form}}{unit} +- {100.0 * share:g} %", bool(abs(error) <= share))
+
+
+def same(case, figure, values):
+    """A figure that must be the same, to the bit, in all runs."""
+    different = len(set(values))
+    return Row(case, figure, "identical" if different == 1 else f"{different} different", "identical",
+               different == 1)
+
+
+def check(case, figure, value, bar, ok):
+    """A figure judged by the caller."""
+    return Row(case, figure, str(value), bar, bool(ok))
+
+
+def shown(case, figure, value):
+    """A figure without a bar."""
+    return Row(case, figure, str(value), "", None)
+
+
+def verdict(row, known):
+    """Text of the last column."""
+    if row.ok is None:
+        return ""
+    return "yes" if row.ok else "known miss" if (row.case, row.figure) in known else "**no**"
+
+
+def markdown(rows, known):
+    """The table, and under it the reason of every known miss in it."""
+    lines = ["| case | figure | value | bar | pass |", "|---|---|---|---|---|"]
+    lines += [f"| {row.case} | {row.figure} | {row.value} | {row.bar} | {verdict(row, known)} |" for row in rows]
+    missed = [(row.case, row.figure) for row in rows if row.ok is False and (row.case, row.figure) in known]
+    if missed:
+        lines += ["", "Known misses:", ""]
+        lines += [f"- {case}: {figure}. {known[case, figure]}" for case, figure in missed]
+    return "\n".join(lines) + "\n"
+
+
+def failures(rows, known):
+    """What makes a table fail: a bar missed without a known reason, or a reason that no longer holds."""
+    wrong = []
+    for row in rows:
+        listed = (row.case, row.figure) in known
+        if row.ok is False and not listed:
+            wrong.append(f"{row.case}: {row.figure}: {row.value}, wanted {row.bar}")
+        if row.ok and listed:
+            wrong.append(f"{row.case}: {row.figure} is listed as a known miss but passes")
+    return wrong
