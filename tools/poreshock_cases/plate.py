@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy
 
 import plate_exact
+import plate_release
 
 FLIGHT = 0.75  # of the time the fastest wave needs to the free surface
 
@@ -113,3 +114,30 @@ def shock(lab, name, velocity, *settings, cell=20e-6, height=5e-3, scene="plate_
                   f"sample.height={height!r}", f"loading.velocity={velocity!r}", "output.snapshot=0.0",
                   f"time.end={end_time(height, plate)!r}", *settings, may_fail=may_fail)
     return run, plate
+
+
+@dataclass(frozen=True)
+class ReleasedPlate:
+    """What a snapshot says about the material below a free surface; the target was at rest."""
+    velocity: float
+    temperature: float
+    paper_excess: float  # largest of T - T0 - W_p/c_v with the reversible part at that density off, K
+
+
+def released(lab, name, velocity, kinematic_share=0.0, thermal="conserving", cell=20e-6, height=2e-3):
+    """Runs a plate until a quarter of it is released; what was found, the exact end and shocked states."""
+    material = plate_exact.Material(kinematic_share=kinematic_share)
+    shocked = plate_exact.solve(material, velocity, thermal).final
+    # The slowest part of the rarefaction needs this long for the released quarter.
+    end = round((height / shocked.front + 0.5 * height / material.c0) / 5e-9) * 5e-9
+    run = shock(lab, name, velocity, f"material.0.kinematic_share={kinematic_share:g}", f"time.end={end:.12g}",
+                cell=cell, height=height, thermal=thermal)[0]
+    state, start = run.particles(), run.particles(0)["position"][:, -1]
+    inside = (start > 0.72 * height) & (start < 0.95 * height)
+    mean = {field: state[field][inside] for field in ("temperature", "density", "plastic_work")}
+    reversible = numpy.array([plate_exact.reference_temperature(material, 1.0 / rho) for rho in mean["density"]])
+    excess = numpy.max(abs(mean["temperature"] - reversible - mean["plastic_work"] / material.cv))
+    # The snapshot's velocities are those over a wall at rest.
+    return (ReleasedPlate(velocity + float(numpy.mean(state["velocity"][inside, -1])),
+                          float(numpy.mean(mean["temperature"])), float(excess)),
+            plate_release.release(material, shocked, thermal), shocked)

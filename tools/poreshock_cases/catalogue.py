@@ -1,0 +1,59 @@
+"""The hard cases, and what is known to miss its bar."""
+from dataclasses import dataclass
+from typing import Callable
+
+from poreshock_cases import bits, free, impact, voids
+
+POROUS_GUARDS = 1e-4  # of the particle-steps, where voids collapse
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case: title, the function that runs it and returns its rows, particle-steps that guards may take."""
+    title: str
+    rows: Callable
+    guard_share: float = 0.0
+
+
+CASES = {
+    "rest": Case("block at rest on the wall", free.rest),
+    "flight": Case("uniform translation through the grid", free.flight),
+    "spinning": Case("spinning elastic disc", free.spinning),
+    "plate": Case("solid plate, 300 to 3000 m/s", impact.solid),
+    "fluid": Case("plate without strength", impact.fluid),
+    "elastic": Case("plate that cannot yield, 300 m/s", impact.elastic),
+    "two_waves": Case("elastic precursor and plastic front", impact.two_waves),
+    "release": Case("release from a free surface, 1100 m/s", impact.release),
+    "tension": Case("two rarefactions meet", impact.tension),
+    "very_porous": Case("void fraction 0.6 at 3 km/s", voids.very_porous, POROUS_GUARDS),
+    "ligament": Case("ligament of 2-3 particles between two voids", voids.ligament, POROUS_GUARDS),
+    "void_at_boundary": Case("void at the wall, void open to the free surface", voids.at_boundary, POROUS_GUARDS),
+    "spray": Case("single particles in empty space", free.spray),
+    "needle": Case("needle of aspect ratio 20 on the wall", free.needle),
+    "steps": Case("time steps up to 0.9 of the limit", impact.steps, POROUS_GUARDS),
+    "restart": Case("restart in the middle of a shock", bits.restart, POROUS_GUARDS),
+    "ranks": Case("cuts through voids", bits.ranks, POROUS_GUARDS),
+    "scale": Case("scale invariance", bits.scale, POROUS_GUARDS),
+    "frames": Case("Galilean invariance", impact.frames),
+    "symmetry": Case("mirror image and periodic shift", bits.symmetry, POROUS_GUARDS),
+}
+
+WALL_HEATING = ("The heat that a starting shock leaves at the wall falls off as 1/n with the number n of cells from "
+                "it, the slower the weaker the shock, and reaches into the middle half of the shocked length.")
+SMEARED = ("The linear artificial viscosity spreads the weak precursor like diffusion, by 16 cells after 580 ns; the "
+           "foot of the plastic front arrives on top of it. With viscosity.linear = 0.05 it is met, at the price of "
+           "an overshoot of the plastic front.")
+SIXTH = ("The cubic weights are multiples of 1/6, which is not a binary number: their sum falls short of one by "
+         "5.6e-17 per axis, and APIC takes its velocities anew from the nodes in every step.")
+KNOWN = {
+    ("flight", "cubic APIC: change of momentum"): SIXTH,
+    ("flight", "cubic APIC, averaged: change of momentum"): SIXTH,
+    ("spinning", "APIC: drift per turn of the mean von Mises stress, turns 5 to 10"):
+        "The stress at the steps of the rim, which a lattice makes of a circle, relaxes slowly.",
+    ("plate", "300 m/s: temperature rise"): WALL_HEATING,
+    ("plate", "700 m/s: temperature rise"): WALL_HEATING,
+    ("elastic", "temperature rise"): WALL_HEATING,
+    ("two_waves", "500 m/s, default, 10 um: arrival of the precursor"): SMEARED,
+    ("two_waves", "700 m/s, default, 10 um: elastic plateau"): SMEARED,
+    ("two_waves", "700 m/s, default, 10 um: arrival of the precursor"): SMEARED,
+}
