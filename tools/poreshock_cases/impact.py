@@ -84,17 +84,17 @@ def two_waves(case, lab):
     return rows
 
 
-def release(case, lab):
+def release(case, lab, cell=CELL):
     """Free-surface velocity and residual temperature, both hardenings, both thermal modes."""
     rows = []
     for thermal, share in (("conserving", 0.0), ("conserving", 1.0), ("paper", 0.0)):
-        found, end, shocked = plate.released(lab, f"{thermal}_{share:g}", 1100.0, share, thermal)
+        found, end = plate.released(lab, f"{thermal}_{share:g}", 1100.0, share, thermal, cell)
         name = f"{thermal}, {'kinematic' if share else 'isotropic'}: "
         rise = plate_release.temperature(ALUMINIUM, end, thermal) - 300.0
         rows += [near(case, name + "free-surface velocity", found.velocity, 1100.0 + end.gain, 5e-3, ".6g", " m/s"),
                  near(case, name + "residual temperature rise", found.temperature - 300.0, rise, 0.10, ".4g", " K")]
         if thermal == "paper":
-            rows.append(limit(case, name + "T - 300 K - W_p/c_v, K, largest at zero pressure", found.paper_excess, 0.5))
+            rows.append(limit(case, name + "T - T_H(V) - W_p/c_v of a particle, K", found.paper_excess, 1e-6))
     return rows
 
 
@@ -138,22 +138,26 @@ def steps(case, lab):
 
 def frames(case, lab):
     """The same shock with the wall moving, and seen from moving frames."""
+    return moving_plates(case, lab) + plates_in_a_frame(case, lab)
+
+
+def moving_plates(case, lab, cell=CELL):
+    """The plate on a moving wall and in frames that move at 1000 m/s; the grid rides with the wall."""
     end = "time.end=300e-9"
-    base = plate.measure(plate.shock(lab, "falling", 1100.0, end)[0].particles(), CELL)
+    base = plate.measure(plate.shock(lab, "falling", 1100.0, end, cell=cell)[0].particles(), cell)
     rows = []
-    for name, velocity, settings in (
-            ("wall moves up", 0.0, ("boundary.low={kind=\"wall\", velocity=1100}", "loading.velocity=0")),
+    for name, wall, settings in (
+            ("wall moves up", 1100.0, ("boundary.low={kind=\"wall\", velocity=1100}", "loading.velocity=0")),
             ("frame 1000 m/s sideways", 0.0, ("loading.frame=[1000, 0]",)),
-            ("frame 1000 m/s upwards", 0.0, ("loading.frame=[0, 1000]",))):
-        run = plate.shock(lab, name.replace(" ", "_").replace("/", ""), 1100.0, *settings, end)[0]
+            ("frame 1000 m/s upwards", 1000.0, ("loading.frame=[0, 1000]",))):
+        run = plate.shock(lab, name.replace(" ", "_").replace("/", ""), 1100.0, *settings, end, cell=cell)[0]
         state = run.particles()
-        wall = {"wall moves up": 1100.0, "frame 1000 m/s upwards": 1000.0}.get(name, 0.0)
         state["position"][:, 1] -= wall * state["time"]
-        found = plate.measure(state, CELL)
+        found = plate.measure(state, cell)
         rows += [near(case, f"{name}: stress", found.stress, base.stress, 2e-3, unit=" GPa", scale=1e9),
                  near(case, f"{name}: temperature rise", found.temperature - 300.0, base.temperature - 300.0, 0.01,
                       unit=" K")]
-    return rows + plates_in_a_frame(case, lab)
+    return rows
 
 
 def plates_in_a_frame(case, lab):

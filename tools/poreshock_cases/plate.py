@@ -121,11 +121,11 @@ class ReleasedPlate:
     """What a snapshot says about the material below a free surface; the target was at rest."""
     velocity: float
     temperature: float
-    paper_excess: float  # largest of T - T0 - W_p/c_v with the reversible part at that density off, K
+    paper_excess: float  # largest of T - T_H(V) - W_p/c_v over the particles, K
 
 
 def released(lab, name, velocity, kinematic_share=0.0, thermal="conserving", cell=20e-6, height=2e-3):
-    """Runs a plate until a quarter of it is released; what was found, the exact end and shocked states."""
+    """Runs a plate until its upper quarter is released; what was found there, and the exact end."""
     material = plate_exact.Material(kinematic_share=kinematic_share)
     shocked = plate_exact.solve(material, velocity, thermal).final
     # The slowest part of the rarefaction needs this long for the released quarter.
@@ -140,4 +140,4 @@ def released(lab, name, velocity, kinematic_share=0.0, thermal="conserving", cel
     # The snapshot's velocities are those over a wall at rest.
     return (ReleasedPlate(velocity + float(numpy.mean(state["velocity"][inside, -1])),
                           float(numpy.mean(mean["temperature"])), float(excess)),
-            plate_release.release(material, shocked, thermal), shocked)
+            plate_release.release(material, shocked, thermal))

@@ -49,13 +49,16 @@ def verdict(row, known):
 
 
 def markdown(rows, known):
-    """The table, and under it the reason of every known miss in it."""
+    """The table, and under it the known misses in it, grouped by their reason."""
     lines = ["| case | figure | value | bar | pass |", "|---|---|---|---|---|"]
     lines += [f"| {row.case} | {row.figure} | {row.value} | {row.bar} | {verdict(row, known)} |" for row in rows]
-    missed = [(row.case, row.figure) for row in rows if row.ok is False and (row.case, row.figure) in known]
+    missed = {}
+    for row in rows:
+        if row.ok is False and (row.case, row.figure) in known:
+            missed.setdefault(known[row.case, row.figure], []).append(f"{row.case}, {row.figure}")
     if missed:
         lines += ["", "Known misses:", ""]
-        lines += [f"- {case}: {figure}. {known[case, figure]}" for case, figure in missed]
+        lines += [f"- {'; '.join(figures)}. {reason}" for reason, figures in missed.items()]
     return "\n".join(lines) + "\n"
 
 

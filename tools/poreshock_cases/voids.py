@@ -65,8 +65,8 @@ def fastest(run):
 def lost(case, run):
     before, after = run.particles(0), run.particles()
     same = numpy.array_equal(before["id"], after["id"]) and numpy.array_equal(before["mass"], after["mass"])
-    return check(case, f"{run.folder.name}: particles lost", len(before["id"]) - len(after["id"]), "0, every mass the same",
-                 same and run.escaped == 0)
+    return check(case, f"{run.folder.name}: particles lost", len(before["id"]) - len(after["id"]),
+                 "0, every mass the same", same and run.escaped == 0)
 
 
 def ligament(case, lab):
@@ -82,7 +82,8 @@ def at_boundary(case, lab):
         run = lab.run(name, "hard/void_at_boundary.toml", *settings)
         momentum = run.history["momentum_y"]
         push = float(numpy.min(numpy.diff(momentum)) / abs(momentum[0]))
-        rows += [check(case, f"{name}: least wall impulse per record / momentum", f"{push:.1e}", "> -1e-12", push > -1e-12),
+        rows += [check(case, f"{name}: least wall impulse per record / momentum", f"{push:.1e}", "> -1e-12",
+                       push > -1e-12),
                  limit(case, f"{name}: fastest particle / impact speed", fastest(run) / 1100.0, 5.0, ".2f"),
                  lost(case, run)]
     return rows

@@ -1,0 +1,125 @@
+"""The judging of cases: rows, verdicts, lines of the tests, and readers of what a run writes."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from poreshock_cases import accuracy, always, bits, catalogue, free, program, table, voids  # noqa: E402
+import plate_exact  # noqa: E402
+
+
+class Rows(unittest.TestCase):
+    def test_bars(self):
+        self.assertTrue(table.limit("a", "b", -0.9, 1.0).ok)
+        self.assertFalse(table.limit("a", "b", -1.0, 1.0).ok)
+        self.assertFalse(table.limit("a", "b", float("nan"), 1.0).ok)
+        self.assertTrue(table.near("a", "b", 1.02, 1.0, 0.021).ok)
+        self.assertFalse(table.near("a", "b", 0.97, 1.0, 0.021).ok)
+        self.assertFalse(table.near("a", "b", float("nan"), 1.0, 0.1).ok)
+        self.assertTrue(table.same("a", "b", ["1", "1"]).ok)
+        self.assertFalse(table.same("a", "b", ["1", "2"]).ok)
+
+    def test_known_misses_fail_only_when_they_no_longer_miss(self):
+        rows = [table.Row("a", "met", "1", "2", True), table.Row("a", "missed", "3", "2", False),
+                table.Row("a", "told", "3", "", None)]
+        self.assertEqual(table.failures(rows, {}), ["a: missed: 3, wanted 2"])
+        self.assertEqual(table.failures(rows, {("a", "missed"): "Why."}), [])
+        self.assertEqual(table.failures(rows, {("a", "met"): "Why.", ("a", "missed"): "Why."}),
+                         ["a: met is listed as a known miss but passes"])
+        self.assertEqual(table.markdown(rows, {("a", "missed"): "Why."}),
+                         "| case | figure | value | bar | pass |\n|---|---|---|---|---|\n| a | met | 1 | 2 | yes |\n"
+                         "| a | missed | 3 | 2 | known miss |\n| a | told | 3 |  |  |\n\nKnown misses:\n\n"
+                         "- a, missed. Why.\n")
+        self.assertIn("| **no** |", table.markdown(rows, {}))
+
+    def test_every_known_miss_belongs_to_a_case(self):
+        self.assertEqual({case for case, _ in catalogue.KNOWN} - set(catalogue.CASES), set())
+
+    def test_lines_of_the_tests(self):
+        text = "3: VERIFY vortex 'L2 order' 2.03 '>= 1.8' pass\nVERIFY rod order 1.2 >=1.8 fail\n4: other VERIFY x\n"
+        self.assertEqual(accuracy.parse_verify(text), [table.Row("vortex", "L2 order", "2.03", ">= 1.8", True),
+                                                       table.Row("rod", "order", "1.2", ">=1.8", False)])
+        with self.assertRaisesRegex(ValueError, "VERIFY rod order 1.2 fail"):
+            accuracy.parse_verify("VERIFY rod order 1.2 fail\n")
+
+    def test_bars_of_the_plates(self):
+        figures = {name: 0.0 for name in accuracy.BARS}
+        rows = accuracy.rows_of_plates("p", {1100.0: figures | {"stress": 0.4}, 700.0: figures | {"stress": 0.4}})
+        self.assertEqual([row.figure for row in rows if not row.ok], ["stress"])
+        self.assertEqual(rows[0].value, "+0.40 / +0.40 %; missed at 1100")
+        rows = accuracy.rows_of_plates("p", {3000.0: figures | {"temperature rise": -4.9}})
+        self.assertTrue(all(row.ok for row in rows))
+
+
+class Readers(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.run_of_it = program.Run(
+            self.folder, 0, "energy drift 1.0e-14, guards: compression 7, sound speed 0, wall 2; escaped particles 3 "
+            "(0.5 kg/m); checksum 0123456789abcdef\nfinished at step 5, time 1 ns, in x\n")
+
+    def snapshot(self, number, **fields):
+        with h5py.File(self.folder / f"snapshot_{number:06d}.h5", "w") as file:
+            file.attrs["time"] = 1e-9 * number
+            for name, values in fields.items():
+                file[f"particles/{name}"] = values
+
+    def test_closing_lines(self):
+        run = self.run_of_it
+        self.assertEqual((run.guards, run.escaped, run.checksum),
+                         ({"compression": 7, "sound speed": 0, "wall": 2}, 3, "0123456789abcdef"))
+        with self.assertRaisesRegex(program.CaseError, "exit code 3: bad state"):
+            _ = program.Run(self.folder, 3, "bad state\n").guards
+
+    def test_drift(self):
+        for totals, drift in (("4,5,3.5", 0.25), ("0,0.5,-1", 0.5)):
+            rows = "".join(f"\n{total},1,1" for total in totals.split(","))
+            (self.folder / "history.csv").write_text("total [J/m],kinetic [J/m],internal [J/m]" + rows + "\n")
+            self.assertEqual(program.Run(self.folder, 0, "").drift, drift)
+
+    def test_bad_particles_are_counted(self):
+        (self.folder / "scene.toml").write_text("[[material]]\nkinematic_share = 0.0\n")
+        good = {"plastic_strain": [0.0, 0.0, 0.1], "temperature": [300.0, 290.0, 400.0]}
+        self.snapshot(0, id=[0, 1, 2], plastic_work=[0.0, 0.0, 5.0], **good)
+        self.snapshot(1, id=[2, 0, 1], plastic_work=[4.0, 0.0, 1.0], **good)  # the work of id 2 fell
+        self.assertEqual(always.bad_particles(self.run_of_it), 1)
+        self.snapshot(2, id=[0, 1, 2], plastic_work=[9.0, 9.0, 9.0], plastic_strain=[-1e-9, 0.0, numpy.nan],
+                      temperature=[300.0, 1.0, 300.0])
+        self.assertEqual(always.bad_particles(self.run_of_it), 4)
+
+
+class Measures(unittest.TestCase):
+    def test_pieces(self):
+        self.assertEqual(free.pieces(numpy.array([[0.0, 0.0], [1.0, 0.0], [5.0, 0.0], [5.0, 1.0], [9.0, 9.0]]), 1.5), 3)
+
+    def test_angular_momentum_counts_the_affine_part(self):
+        # Two particles on a rigid spin of 3 rad/s: m r^2 w each, and m (2 w) D each.
+        state = {"mass": numpy.array([2.0, 2.0]), "position_0": numpy.array([2.0, 0.0]),
+                 "position_1": numpy.array([1.0, 1.0]), "velocity_0": numpy.zeros(2),
+                 "velocity_1": numpy.array([3.0, -3.0]), "affine_1": numpy.full(2, -3.0),
+                 "affine_2": numpy.full(2, 3.0)}
+        self.assertAlmostEqual(free.angular_momentum(state, (1.0, 1.0), 0.25), 2 * 2.0 * 3.0 + 2 * 2.0 * 6.0 * 0.25)
+
+    def test_snow_plough(self):
+        for void_fraction, velocity, ratio, temperature in (
+                (0.077, 1100.0, 0.87503, 758.5), (0.3, 500.0, 0.98915, 446.7), (0.46, 1500.0, 0.98866, 1583.2),
+                (0.6, 1100.0, 1.01313, 977.0)):
+            volume, found = voids.snow_plough(plate_exact.Material(), 2700.0 * (1.0 - void_fraction), velocity)
+            self.assertEqual(f"{volume * 2700.0:.5f} {found:.1f}", f"{ratio:.5f} {temperature:.1f}")
+
+    def test_scaled_scene(self):
+        scene = {"domain": {"size": [1.0, 2.0], "cell": 0.5}, "sample": {"height": 2.0}, "time": {"end": 8.0},
+                 "output": {"beat": 4.0}, "void": [{"center": [0.5, 0.25], "radius": 0.125}]}
+        self.assertEqual(bits.scale_settings(scene, 2.0),
+                         ["domain.size=[2.0, 4.0]", "domain.cell=1.0", "sample.height=4.0", "time.end=16.0",
+                          "output.beat=8.0", "void.0.center=[1.0, 0.5]", "void.0.radius=0.25"])
+
+
+if __name__ == "__main__":
+    unittest.main()
