@@ -40,8 +40,8 @@ CASES = {
 
 WALL_HEATING = ("The heat that a starting shock leaves at the wall falls off as 1/n with the number n of cells from "
                 "it, the slower the weaker the shock, and reaches into the middle half of the shocked length.")
-SMEARED = ("The linear artificial viscosity spreads the weak precursor like diffusion, by about 20 cells of 10 um after "
-           "580 ns; the foot of the plastic front arrives on top of it. With viscosity.linear = 0.05 it is met, at the "
+SMEARED = ("The linear artificial viscosity spreads the weak precursor like diffusion, by about 20 cells of 10 um "
+           "after 580 ns; the foot of the plastic front arrives on top of it. With viscosity.linear = 0.05 it is met, at the "
            "price of an overshoot of the plastic front.")
 SIXTH = ("The cubic weights are multiples of 1/6, which is not a binary number: their sum falls short of one by "
          "5.6e-17 per axis, and APIC takes its velocities anew from the nodes in every step.")
