@@ -9,7 +9,6 @@ import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 from poreshock_cases import accuracy, always, bits, catalogue, free, program, table, voids  # noqa: E402
-import plate_exact  # noqa: E402
 
 
 class Rows(unittest.TestCase):
@@ -105,13 +104,6 @@ class Measures(unittest.TestCase):
                  "velocity_1": numpy.array([3.0, -3.0]), "affine_1": numpy.full(2, -3.0),
                  "affine_2": numpy.full(2, 3.0)}
         self.assertAlmostEqual(free.angular_momentum(state, (1.0, 1.0), 0.25), 2 * 2.0 * 3.0 + 2 * 2.0 * 6.0 * 0.25)
-
-    def test_snow_plough(self):
-        for void_fraction, velocity, ratio, temperature in (
-                (0.077, 1100.0, 0.87503, 758.5), (0.3, 500.0, 0.98915, 446.7), (0.46, 1500.0, 0.98866, 1583.2),
-                (0.6, 1100.0, 1.01313, 977.0)):
-            volume, found = voids.snow_plough(plate_exact.Material(), 2700.0 * (1.0 - void_fraction), velocity)
-            self.assertEqual(f"{volume * 2700.0:.5f} {found:.1f}", f"{ratio:.5f} {temperature:.1f}")
 
     def test_scaled_scene(self):
         scene = {"domain": {"size": [1.0, 2.0], "cell": 0.5}, "sample": {"height": 2.0}, "time": {"end": 8.0},

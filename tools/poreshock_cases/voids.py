@@ -4,28 +4,7 @@ import numpy
 import plate_exact
 from poreshock_cases.program import particles
 from poreshock_cases.table import check, limit, near, shown
-
-
-def snow_plough(material, density, velocity):
-    """Volume and temperature of a porous strengthless solid of initial `density` that a shock stops.
-
-    Complete collapse: E = Up^2/2 and P(V, E) (V00 - V) = Up^2 (Zel'dovich & Raizer, ch. XI).
-    """
-    energy, start = 0.5 * velocity**2, 1.0 / density
-
-    def excess(volume):
-        pressure, reference_energy = plate_exact.reference(material, volume)
-        pressure += material.gamma / volume * (energy - reference_energy)
-        return pressure * (start - volume) - velocity**2
-
-    # At a small volume the pressure turns over; the root wanted is the one on the expanded side.
-    high = start * (1.0 - 1e-9)
-    low = next(high * (1.0 - 1e-3 * i) for i in range(1, 900) if excess(high * (1.0 - 1e-3 * i)) > 0.0)
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if excess(middle) > 0.0 else (low, middle)
-    heat = energy - plate_exact.reference(material, low)[1]
-    return low, plate_exact.reference_temperature(material, low) + heat / material.cv
+from poreshock_report.hugoniot import snow_plow
 
 
 def wall_stress(run, first, last):
@@ -41,8 +20,9 @@ def very_porous(case, lab):
     start, velocity = run.particles(0), run.scene["loading"]["velocity"]
     area = run.scene["domain"]["size"][0] * run.scene["sample"]["height"]
     density = start["mass"].sum() / area
-    volume, temperature = snow_plough(plate_exact.Material(), density, velocity)
-    front = velocity / (1.0 - volume * density)  # Us, the target at rest
+    material = plate_exact.Material()
+    plow = snow_plow(material, 1.0 - density / material.density, velocity)
+    front, temperature = plow.speed, plow.temperature  # Us, the target at rest
     found = wall_stress(run, 40e-9, run.scene["time"]["end"])
     state = run.particles()
     top = (front - velocity) * state["time"]

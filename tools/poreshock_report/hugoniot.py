@@ -8,7 +8,7 @@ Us = Up V00 / (V00 - V), with V00 = V0 / (1 - void fraction). Pressures are posi
 import math
 from dataclasses import dataclass
 
-from plate_exact import hugoniot_temperature
+from plate_exact import reference, reference_temperature
 
 
 @dataclass(frozen=True)
@@ -21,23 +21,9 @@ class Shock:
     void_fraction: float
 
 
-def reference(material, volume):
-    """P (Pa), E (J/kg) and T (K) of the reference curve at a volume, m^3/kg."""
-    rest = 1.0 / material.density
-    compression = 1.0 - volume / rest
-    modulus = material.density * material.c0**2
-    if compression >= 0.0:
-        pressure = modulus * compression / (1.0 - material.gruneisen_slope * compression)**2
-        temperature = float(hugoniot_temperature(material, volume))
-    else:
-        pressure = modulus * compression
-        temperature = material.T0 * (rest / volume)**material.gamma
-    return pressure, 0.5 * pressure * (rest - volume), temperature
-
-
 def pressure_of(material, volume, energy):
     """Pressure of the solid at a volume (m^3/kg) and an energy (J/kg), Pa."""
-    pressure, cold, _ = reference(material, volume)
+    pressure, cold = reference(material, volume)
     return pressure + material.gamma / volume * (energy - cold)
 
 
@@ -62,7 +48,8 @@ def shock(material, void_fraction, velocity, volume, alpha):
     """The state at a volume of solid and voids together, from momentum, mass and energy."""
     start = 1.0 / (material.density * (1.0 - void_fraction))
     energy = 0.5 * velocity**2
-    _, cold, temperature = reference(material, volume / alpha)
+    cold = reference(material, volume / alpha)[1]
+    temperature = float(reference_temperature(material, volume / alpha))
     return Shock(speed=velocity * start / (start - volume), pressure=velocity**2 / (start - volume),
                  density=1.0 / volume, temperature=temperature + (energy - cold) / material.cv,
                  void_fraction=1.0 - 1.0 / alpha)
