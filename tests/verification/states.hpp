@@ -1,0 +1,97 @@
+#pragma once
+// Initial states made by code, a bare loop of equal steps, and what is read off the particles. All
+// in plane strain; runs of these tests are small and stay on one rank.
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "support/runs.hpp"
+#include "verification/verify.hpp"
+
+namespace poreshock::test {
+
+using Plane = std::array<double, 2>;
+
+/// Velocity (m/s) and its gradient dv_i/dx_j (1/s, row major) at one place.
+struct Motion {
+  Plane velocity{};
+  std::array<double, 4> gradient{};
+};
+
+inline Plane position(const Simulation<2>& sim, std::size_t p) {
+  return {sim.particles.position[0][p], sim.particles.position[1][p]};
+}
+
+/// Where the particle was at the start, m: its id is the number of its lattice site.
+inline Plane site(const Simulation<2>& sim, std::size_t p) {
+  const int per_cell = sim.scene.sample.particles_per_cell;
+  const std::int64_t width = std::int64_t{sim.scene.domain.cells[0]} * per_cell;
+  const double spacing = sim.scene.domain.cell / per_cell;
+  const std::int64_t id = sim.particles.id[p];
+  return {(static_cast<double>(id % width) + 0.5) * spacing,
+          (static_cast<double>(id / width) + 0.5) * spacing};
+}
+
+/// Gives every particle the motion that field(x) -> Motion has at its position.
+template <class Field>
+void set_motion(Field&& field, Simulation<2>& sim) {
+  Particles<2>& particles = sim.particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Motion motion = field(position(sim, p));
+    for (int a = 0; a < 2; ++a) particles.velocity[a][p] = motion.velocity[a];
+    if (!particles.options.affine) continue;
+    for (int k = 0; k < 4; ++k) particles.affine[k][p] = motion.gradient[k];
+  }
+}
+
+/// One step of length dt, s. Collective.
+inline void step_by(double dt, Simulation<2>& sim) {
+  advance(sim, dt);
+  ++sim.clock.step;
+  sim.clock.time += dt;
+  migrate(sim);
+}
+
+/// Equal steps of length dt, s; fails the test when a state goes bad. Collective.
+inline void step_by(double dt, std::int64_t steps, Simulation<2>& sim) {
+  for (std::int64_t k = 0; k < steps; ++k) {
+    step_by(dt, sim);
+    ASSERT_EQ(sim.clock.bad, 0) << "state gone bad at step " << sim.clock.step;
+  }
+}
+
+/// Storage index of every particle id.
+inline std::unordered_map<std::int64_t, std::size_t> index_by_id(const Simulation<2>& sim) {
+  std::unordered_map<std::int64_t, std::size_t> index;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) index[sim.particles.id[p]] = p;
+  return index;
+}
+
+inline HistoryRow stock(const Simulation<2>& sim) {
+  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
+}
+
+inline const J2MieGruneisen& first_material(const Simulation<2>& sim) {
+  return std::get<J2MieGruneisen>(sim.materials.front());
+}
+
+/// Density (kg/m^3) at which the reference curve has pressure p (Pa); small compressions only.
+inline double density_at(const MieGruneisen& eos, double p) {
+  double eta = p / eos.bulk;
+  for (int k = 0; k < 50; ++k) {
+    const ReferencePoint r = reference_point(eos, eta);
+    eta -= (r.pressure - p) / r.pressure_slope;
+  }
+  return eos.density / (1.0 - eta);
+}
+
+/// Von Mises stress of particle p, Pa.
+inline double von_mises(const Particles<2>& particles, std::size_t p) {
+  SymmetricTensor<2> s;
+  for (int k = 0; k < 4; ++k) s[k] = particles.deviator[k][p];
+  return std::sqrt(1.5 * contract<2>(s, s));
+}
+
+}  // namespace poreshock::test
