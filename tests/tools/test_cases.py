@@ -8,7 +8,7 @@ import h5py
 import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from poreshock_cases import accuracy, always, bits, catalogue, free, program, table, voids  # noqa: E402
+from poreshock_cases import accuracy, always, bits, catalogue, free, program, table  # noqa: E402
 
 
 class Rows(unittest.TestCase):
