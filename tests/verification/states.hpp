@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "poreshock/particles/derived.hpp"
+#include "poreshock/solver/records.hpp"
 #include "support/runs.hpp"
 #include "verification/verify.hpp"
 
@@ -19,6 +21,13 @@ struct Motion {
   Plane velocity{};
   std::array<double, 4> gradient{};
 };
+
+/// A number as a scene states it, all digits.
+inline std::string digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
 
 inline Plane position(const Simulation<2>& sim, std::size_t p) {
   return {sim.particles.position[0][p], sim.particles.position[1][p]};

@@ -23,15 +23,13 @@ const Scheme quadratic_flip{"quadratic_flip",
 /// One wavelength along the periodic x axis, eight rows between symmetry planes.
 Simulation<2> periodic_strip(int cells, double frame, const Scheme& scheme) {
   const double cell = wavelength / cells;
-  const auto number = [](double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", x);
-    return std::string(text);
-  };
   std::vector<std::string> overrides = scheme.overrides;
-  overrides.insert(overrides.end(),
-                   {"domain.size=[" + number(wavelength) + ", " + number(8 * cell) + "]",
-                    "domain.cell=" + number(cell), "loading.frame=[" + number(frame) + ", 0.0]"});
+  for (std::string text :
+       {"domain.size=[" + digits(wavelength) + ", " + digits(8 * cell) + "]",
+        "domain.cell=" + digits(cell), "loading.frame=[" + digits(frame) + ", 0.0]",
+        std::string("material.0.yield=1e30")}) {
+    overrides.push_back(std::move(text));
+  }
   const std::string text = std::string(R"(
 [domain]
 size = [1.0, 1.0]
@@ -48,7 +46,6 @@ quadratic = 0.0
 [time]
 end = 1.0
 )") + aluminium_text;
-  overrides.push_back("material.0.yield=1e30");
   return start<2>(scene_of(text, overrides), MPI_COMM_SELF);
 }
 
@@ -159,9 +156,9 @@ double strain_energy(const Simulation<2>& sim) {
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     const double density = sim.particles.density[p];
     const double q = von_mises(sim.particles, p);
-    energy += sim.particles.mass[p] *
-              (m.deviatoric_energy(q * q / 1.5, density) +
-               reference_point(m.eos, 1.0 - m.eos.density / density).energy);
+    energy +=
+        sim.particles.mass[p] * (m.deviatoric_energy(q * q / 1.5, density) +
+                                 reference_point(m.eos, 1.0 - m.eos.density / density).energy);
   }
   return energy;
 }

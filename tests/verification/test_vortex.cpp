@@ -59,9 +59,7 @@ struct Vortex {
     const double s = R - 1.0;
     return s * s < 0.0625 ? -64.0 + 3072.0 * s * s : 0.0;
   }
-  double angle(double R, double t) const {
-    return amplitude * std::sin(omega * t) * profile(R);
-  }
+  double angle(double R, double t) const { return amplitude * std::sin(omega * t) * profile(R); }
   /// Radial and tangential body force per mass, m/s^2; Jaumann stresses
   /// s_tt = -s_rr = G (1 - cos kappa), s_rt = G sin kappa of the simple shear kappa = R dalpha/dR.
   Plane body_force(double R, double t) const {
@@ -143,7 +141,7 @@ struct Swing {
 /// From rest position over the peak (t = 1/2) and back (t = 1).
 Swing run_vortex(double amplitude, int cells, const std::vector<std::string>& overrides) {
   std::vector<std::string> all = overrides;
-  all.push_back("domain.cell=" + std::to_string(3.0 / cells));
+  all.push_back("domain.cell=" + digits(3.0 / cells));
   Simulation<2> sim = start<2>(scene_of(vortex_text(), all), MPI_COMM_SELF);
   const Vortex vortex{amplitude};
   const double c = longitudinal_sound_speed(sim.materials[0]);

@@ -52,6 +52,16 @@ inline void verify_relative(const std::string& name, const std::string& figure, 
   EXPECT_TRUE(passed) << name << ": " << figure << " is " << value << ", exact " << exact;
 }
 
+/// For a figure that misses its bar and is known to: the table says so ("fail"), the test fails
+/// only when it gets worse than `known`, or meets the bar, so that the shortfall is taken off the
+/// list.
+inline void verify_known_shortfall(const std::string& name, const std::string& figure, double value,
+                                   double bar, double known) {
+  print_figure(name, figure, value, bar_text("<=", bar), value <= bar);
+  EXPECT_LE(value, known) << name << ": " << figure << " is worse than it was";
+  EXPECT_GT(value, bar) << name << ": " << figure << " now meets its bar; verify it as such";
+}
+
 /// Prints a figure that has no bar; it must be finite.
 inline void record(const std::string& name, const std::string& figure, double value) {
   print_figure(name, figure, value, "none", std::isfinite(value));

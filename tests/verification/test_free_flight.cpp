@@ -1,0 +1,205 @@
+// Bodies on which nothing acts: at rest under pressure, in flight through the grid, turning, and as
+// single particles.
+
+#include <algorithm>
+
+#include "verification/states.hpp"
+
+namespace poreshock::test {
+namespace {
+
+constexpr double bulk = 2700.0 * 5350.0 * 5350.0;
+
+double fastest(const Simulation<2>& sim, const Plane& frame) {
+  double largest = 0.0;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    for (int a = 0; a < 2; ++a) {
+      largest = std::max(largest, std::abs(sim.particles.velocity[a][p] - frame[a]));
+    }
+  }
+  return largest;
+}
+
+double largest_stress(const Simulation<2>& sim) {
+  double largest = 0.0;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    largest = std::max(largest, std::abs(sim.particles.pressure[p]));
+    for (const auto& column : sim.particles.deviator) {
+      largest = std::max(largest, std::abs(column[p]));
+    }
+  }
+  return largest;
+}
+
+// --- at rest ---------------------------------------------------------------------------------
+
+/// A block between symmetry planes, one per cent denser than its material: 1 GPa everywhere.
+Simulation<2> compressed_block(const std::vector<std::string>& overrides) {
+  const std::string text = std::string(R"(
+[domain]
+size = [40e-6, 80e-6]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "symmetry"
+high = "symmetry"
+[sample]
+kind = "solid"
+[time]
+end = 1.0
+)") + aluminium_text;
+  Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    sim.particles.mass[p] *= 1.01;
+    sim.particles.density[p] *= 1.01;
+  }
+  StressReport report;
+  initialise_stress<2>(sim.materials, sim.stress_settings, sim.particles, report);
+  sim.clock.limit = report.dt_limit;
+  return sim;
+}
+
+void stay_quiet(const std::string& name, const std::vector<std::string>& overrides) {
+  Simulation<2> sim = compressed_block(overrides);
+  ASSERT_GT(sim.particles.pressure[0], 0.5e9);
+  const double c = longitudinal_sound_speed(sim.materials[0]);
+  std::vector<double> before, after;
+  derive_field<2>("temperature", sim.particles, sim.materials, sim.scene.thermal, before);
+  step_by(sim.clock.limit, 100000, sim);
+  derive_field<2>("temperature", sim.particles, sim.materials, sim.scene.thermal, after);
+  double drift = 0.0;
+  for (const double T : after) drift = std::max(drift, std::abs(T - before[0]));
+  verify_at_most(name, "velocity_over_c", fastest(sim, {0.0, 0.0}) / c, 1e-12);
+  verify_at_most(name, "temperature_drift_K", drift, 1e-9);
+}
+
+TEST(QuietSolid, ApicStaysQuietUnderPressure) {
+  stay_quiet("quiet_solid_apic", {});
+}
+
+TEST(QuietSolid, FlipStaysQuietUnderPressure) {
+  stay_quiet("quiet_solid_flip", {"transfer.velocity=flip"});
+}
+
+TEST(QuietSolid, AveragedQuadraticApicStaysQuietUnderPressure) {
+  stay_quiet("quiet_solid_averaged", {"transfer.shape=quadratic", "transfer.averaging=1.0"});
+}
+
+// --- translation -----------------------------------------------------------------------------
+
+void translate(const std::string& name, const std::vector<std::string>& overrides) {
+  // 1e4 steps: more than 600 cells along x, 100 along y.
+  const std::string text = std::string(R"(
+[domain]
+size = [60e-6, 1.2e-3]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "free"
+[sample]
+kind = "solid"
+height = 60e-6
+[loading]
+frame = [1100.0, 170.0]
+[time]
+end = 1.0
+)") + aluminium_text;
+  Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+  const HistoryRow before = stock(sim);
+  const double dt = sim.clock.limit;
+  double stress_halfway = 0.0;
+  for (int half = 0; half < 2; ++half) {
+    step_by(dt, 5000, sim);
+    if (half == 0) stress_halfway = largest_stress(sim);
+  }
+  const HistoryRow after = stock(sim);
+  EXPECT_GT(170.0 * sim.clock.time, 100 * 10e-6);
+  EXPECT_EQ(after.particles, before.particles);
+  verify_at_most(name, "stress_over_K0", largest_stress(sim) / bulk, 1e-9);
+  record(name, "stress_over_K0_halfway", stress_halfway / bulk);
+  for (std::size_t a = 0; a < 2; ++a) {
+    verify_at_most(name, a == 0 ? "momentum_x" : "momentum_y",
+                   std::abs(after.momentum[a] / before.momentum[a] - 1.0), 1e-14);
+  }
+  verify_at_most(name, "velocity_noise", fastest(sim, {1100.0, 170.0}) / 1100.0, 1e-10);
+}
+
+TEST(Translation, CubicApicFeelsNothing) {
+  translate("translation_cubic_apic", {});
+}
+
+TEST(Translation, CubicFlipFeelsNothing) {
+  translate("translation_cubic_flip", {"transfer.velocity=flip"});
+}
+
+TEST(Translation, AveragedQuadraticApicFeelsNothing) {
+  translate("translation_averaged", {"transfer.shape=quadratic", "transfer.averaging=1.0"});
+}
+
+// --- single particles ------------------------------------------------------------------------
+
+void spray(const std::string& name, const std::vector<std::string>& overrides) {
+  // Every eighth site in both directions: no two particles share a node. They fly apart, the
+  // fastest over a hundred cells.
+  const std::string text = std::string(R"(
+[domain]
+size = [2.8e-3, 2.8e-3]
+cell = 10e-6
+[boundary]
+low = "free"
+[[body]]
+shape = "box"
+low = [1.2e-3, 1.2e-3]
+high = [1.6e-3, 1.6e-3]
+[time]
+end = 1.0
+)") + aluminium_text;
+  Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+  std::vector<std::uint32_t> kept;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    const std::int64_t column = sim.particles.id[p] % 560, row = sim.particles.id[p] / 560;
+    if (column % 10 == 3 && row % 10 == 7) kept.push_back(static_cast<std::uint32_t>(p));
+  }
+  reorder(kept, sim.particles);
+  ASSERT_GE(sim.particles.size(), 64U);
+  const auto speed = [](double x) { return 6.0e6 * (x - 1.4e-3); };
+  set_motion([&](const Plane& x) { return Motion{{speed(x[0]), speed(x[1])}, {}}; }, sim);
+  std::vector<double> before, after;
+  derive_field<2>("temperature", sim.particles, sim.materials, sim.scene.thermal, before);
+  const double dt = 0.8 * sim.clock.limit;
+  step_by(dt, static_cast<std::int64_t>(std::ceil(1.0e-3 / 1100.0 / dt)), sim);
+  double velocity = 0.0, place = 0.0, farthest = 0.0;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    const Plane X = site(sim, p);
+    for (int a = 0; a < 2; ++a) {
+      const double v = speed(X[a]);
+      velocity = std::max(velocity, std::abs(sim.particles.velocity[a][p] - v) / 1100.0);
+      const double moved = sim.particles.position[a][p] - X[a];
+      place = std::max(place, std::abs(moved - v * sim.clock.time) / 1e-3);
+      farthest = std::max(farthest, std::abs(moved));
+    }
+  }
+  derive_field<2>("temperature", sim.particles, sim.materials, sim.scene.thermal, after);
+  double warming = 0.0;
+  for (const double T : after) warming = std::max(warming, std::abs(T - before[0]));
+  EXPECT_GE(farthest, 1e-3);
+  verify_at_most(name, "velocity_error", velocity, 1e-10);
+  verify_at_most(name, "position_error", place, 1e-10);
+  verify_at_most(name, "temperature_change_K", warming, 1e-9);
+  verify_at_most(name, "stress_over_K0", largest_stress(sim) / bulk, 1e-9);
+}
+
+TEST(Spray, ApicParticlesFlyOn) {
+  spray("spray_cubic_apic", {});
+}
+
+TEST(Spray, FlipParticlesFlyOn) {
+  spray("spray_cubic_flip", {"transfer.velocity=flip"});
+}
+
+TEST(Spray, QuadraticApicParticlesFlyOn) {
+  spray("spray_quadratic_apic", {"transfer.shape=quadratic"});
+}
+
+}  // namespace
+}  // namespace poreshock::test
