@@ -138,10 +138,9 @@ TEST(Translation, AveragedQuadraticApicFeelsNothing) {
 
 // --- single particles ------------------------------------------------------------------------
 
-void spray(const std::string& name, const std::vector<std::string>& overrides) {
-  // Every eighth site in both directions: no two particles share a node. They fly apart, the
-  // fastest over a hundred cells.
-  const std::string text = std::string(R"(
+/// A box of particles in the middle of a domain that is free all around.
+std::string spray_scene() {
+  return std::string(R"(
 [domain]
 size = [2.8e-3, 2.8e-3]
 cell = 10e-6
@@ -154,7 +153,12 @@ high = [1.6e-3, 1.6e-3]
 [time]
 end = 1.0
 )") + aluminium_text;
-  Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+}
+
+void spray(const std::string& name, const std::vector<std::string>& overrides) {
+  // Every eighth site in both directions: no two particles share a node. They fly apart, the
+  // fastest over a hundred cells.
+  Simulation<2> sim = start<2>(scene_of(spray_scene(), overrides), MPI_COMM_SELF);
   std::vector<std::uint32_t> kept;
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     const std::int64_t column = sim.particles.id[p] % 560, row = sim.particles.id[p] / 560;

@@ -125,8 +125,9 @@ TEST(CopperPiston, ReferenceHasThePublishedNumbers) {
   EXPECT_NEAR(exact.stress, 741.59e6, 0.05e6);
 }
 
-TEST(CopperPiston, TwoWavesAt20) {
-  const std::string text = R"(
+/// Copper that falls onto a wall at 20 m/s.
+std::string copper_scene() {
+  return R"(
 [domain]
 size = [40e-6, 4.2e-3]
 cell = 10e-6
@@ -151,8 +152,11 @@ velocity = 20
 [time]
 end = 350e-9
 )";
+}
+
+TEST(CopperPiston, TwoWavesAt20) {
   const TwoWaves exact = two_waves(copper(), 20.0);
-  Simulation<2> sim = start<2>(scene_of(text, {"time.end=350e-9"}), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(scene_of(copper_scene()), MPI_COMM_SELF);
   advance_to(1000000, 0, sim);
   const Fronts early = fronts(sim, exact);
   sim.scene.time.end = 700e-9;
@@ -185,9 +189,9 @@ TEST(WilkinsFlyer, ReferenceHasThePublishedNumbers) {
   EXPECT_NEAR(exact.front_speed, 5909.2, 0.1);
 }
 
-TEST(WilkinsFlyer, PlateauOfTheImpactAt800) {
-  // Flyer of 5 mm below, target above; free surfaces far from the plateau at the times looked at.
-  const std::string text = R"(
+/// Flyer of 5 mm below, target above; free surfaces far from the plateau at the times looked at.
+std::string flyer_scene() {
+  return R"(
 [domain]
 size = [50e-6, 12e-3]
 cell = 12.5e-6
@@ -216,8 +220,11 @@ high = [50e-6, 11.5e-3]
 [time]
 end = 400e-9
 )";
+}
+
+TEST(WilkinsFlyer, PlateauOfTheImpactAt800) {
   const TwoWaves exact = two_waves(wilkins_aluminium(), 400.0);
-  Simulation<2> sim = start<2>(scene_of(text), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(scene_of(flyer_scene()), MPI_COMM_SELF);
   advance_to(1000000, 0, sim);
   const Fronts early = fronts(sim, exact);
   sim.scene.time.end = 750e-9;
