@@ -1,8 +1,9 @@
 #pragma once
 // Lines of the verification table. Every figure is printed as
 //   VERIFY <case> <figure> <value> <bar> <pass|fail>
-// with the bar as "<=1e-3" or ">=1.8", so that a table can be collected from the output of the
-// tests; a figure that is only recorded has the bar "none" and passes.
+// with the bar as "<=0.001", ">=1.8" or "|.|<=0.02" (of the absolute value), so that a table can be
+// collected from the output of the tests; a figure that is only recorded has the bar "none" and
+// passes.
 
 #include <gtest/gtest.h>
 
