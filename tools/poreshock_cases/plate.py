@@ -103,13 +103,13 @@ def end_time(height, plate, beat=5e-9, flight=FLIGHT):
 
 
 def shock(lab, name, velocity, *settings, cell=20e-6, height=5e-3, scene="plate_impact.toml",
-          material=plate_exact.Material(), thermal="conserving", may_fail=False):
-    """Runs a plate of four cells width and returns the run and its exact solution."""
+          material=plate_exact.Material(), thermal="conserving", may_fail=False, start=None):
+    """Runs a plate of four cells width, by `start` or lab.run, and returns the run and its exact solution."""
     plate = plate_exact.solve(material, velocity, thermal)
     lateral = [4 * cell] * (2 if "3d" in scene else 1)
     # Room above for rounding: a whole number of cells.
     size = [*lateral, (round(height / cell) + 4) * cell]
-    run = lab.run(name, scene, f"thermal={thermal}", f"domain.cell={cell!r}",
+    run = (start or lab.run)(name, scene, f"thermal={thermal}", f"domain.cell={cell!r}",
                   "domain.size=[" + ", ".join(f"{length:.12g}" for length in size) + "]",
                   f"sample.height={height!r}", f"loading.velocity={velocity!r}", "output.snapshot=0.0",
                   f"time.end={end_time(height, plate)!r}", *settings, may_fail=may_fail)
