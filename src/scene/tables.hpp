@@ -258,6 +258,9 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
   visitor.names("fields", names, morphology_fields, {"fields to measure"});
   visitor.thresholds("thresholds", names, morphology.fields,
                      {"thresholds of each field in its unit (K, Pa, kg/m^3, m/s, Pa, 1)"});
+  visitor.flag("domains", morphology.domains, {"count hot and cold domains at all thresholds"});
+  visitor.hot_spots("hot_spots", morphology.fields,
+                    {"thresholds at which every hot domain is listed"});
 }
 
 template <typename Visitor>

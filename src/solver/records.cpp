@@ -3,11 +3,11 @@
 #include <cstring>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/morphology/analysis.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/solver/measure.hpp"
 
 namespace poreshock {
 
@@ -23,24 +23,6 @@ template <int Dim>
 std::int64_t record_number(const Simulation<Dim>& sim) {
   const double landed = static_cast<double>(sim.clock.beat) * sim.scene.output.beat;
   return sim.clock.beat + (sim.clock.time - landed > 1e-9 * sim.scene.output.beat ? 1 : 0);
-}
-
-void append_counts(const PixelCounts& c, MorphologyRecord& record) {
-  record.pixels = c.pixels;
-  record.counts = {{"F", c.F}, {"E", c.E},         {"V", c.V},           {"V4", c.V4},
-                   {"D", c.D}, {"B_int", c.B_int}, {"B_void", c.B_void}, {"B_frame", c.B_frame}};
-  const Minkowski m = functionals(c);
-  record.functionals = {{"A", m.A}, {"L", m.L}, {"chi", m.chi}, {"chi4", m.chi4}};
-}
-
-// The vertex count holds the name V, so the volume functional is spelt out.
-void append_counts(const VoxelCounts& c, MorphologyRecord& record) {
-  record.pixels = c.pixels;
-  record.counts = {{"C", c.C},         {"F", c.F},           {"E", c.E},
-                   {"V", c.V},         {"E4", c.E4},         {"V8", c.V8},
-                   {"S_int", c.S_int}, {"S_void", c.S_void}, {"S_frame", c.S_frame}};
-  const Minkowski3 m = functionals(c);
-  record.functionals = {{"volume", m.V}, {"S", m.S}, {"M", m.M}, {"chi", m.chi}, {"chi6", m.chi6}};
 }
 
 template <int Dim>
@@ -75,17 +57,13 @@ void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   std::vector<MorphologyRecord> records;
   for (std::size_t f = 0; f < fields; ++f) {
     const MorphologyField& field = scene.morphology.fields[f];
-    MorphologyRecord record;
-    record.field = field.name;
-    record.unit = derived_unit(field.name);
-    record.threshold = field.thresholds;
-    append_counts(count<Dim>(map, f, field.thresholds, sim.communicator), record);
-    records.push_back(std::move(record));
+    records.push_back(measure<Dim>(map, f, field, std::string(derived_unit(field.name)),
+                                   scene.morphology, grid_shift(sim), sim.communicator));
   }
   const std::int64_t number = record_number(sim);
   write_morphology(recorder.folder + "/" + morphology_name(number),
-                   {number, sim.clock.step, sim.clock.time, sim.scene_text}, records,
-                   sim.communicator);
+                   {number, sim.clock.step, sim.clock.time, sim.scene_text, scene.morphology.pixel},
+                   records, sim.communicator);
 }
 
 template <int Dim>

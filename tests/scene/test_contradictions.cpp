@@ -183,6 +183,21 @@ TEST(Contradictions, Morphology) {
       "mean \"density\"?");
 }
 
+TEST(Contradictions, HotSpots) {
+  const std::string two =
+      "[morphology]\nevery = 5e-9\nfields = [\"speed\", \"density\"]\n"
+      "thresholds = { speed = [1], density = [2] }\n";
+  EXPECT_EQ(problems(small_scene(two + "hot_spots = { density = [3] }\n")), "");
+  EXPECT_EQ(problems(small_scene(two + "hot_spots = [3]\n")),
+            "s.toml:22:13: morphology.hot_spots: found thresholds of one field, allowed a table by "
+            "field name, because morphology.fields names 2");
+  EXPECT_EQ(problems(small_scene(two + "hot_spots = { densty = [3], speed = [2, 1] }\n")),
+            "s.toml:22:15: morphology.hot_spots.densty: unknown key, allowed speed, density, did "
+            "you mean \"density\"?\n"
+            "s.toml:22:41: morphology.hot_spots.speed: found 1, allowed numbers in ascending "
+            "order, here > 2");
+}
+
 TEST(Contradictions, ThresholdRanges) {
   const std::string speed = "[morphology]\nfields = [\"speed\"]\nthresholds = ";
   EXPECT_EQ(

@@ -121,7 +121,8 @@ struct Output {
 
 struct MorphologyField {
   std::string name;  ///< temperature, pressure, density, speed, von_mises, plastic_strain
-  std::vector<double> thresholds;  ///< in the unit of the field, ascending
+  std::vector<double> thresholds{};  ///< in the unit of the field, ascending
+  std::vector<double> hot_spots{};   ///< thresholds at which every hot domain is listed
   bool operator==(const MorphologyField&) const = default;
 };
 
@@ -129,6 +130,7 @@ struct Morphology {
   double every = 0.0;  ///< s, 0 = off
   double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3)
   std::vector<MorphologyField> fields;
+  bool domains = false;  ///< count hot and cold domains at all thresholds
   bool operator==(const Morphology&) const = default;
 };
 
