@@ -6,9 +6,9 @@ import numpy
 import program
 from program import POROUS
 
-LISTED = [350.0, 400.0]
+LISTED = [600.0, 800.0]
 DOMAINS = ("--set", "morphology.domains=true",
-           "--set", "morphology.hot_spots={ temperature = [350, 400] }")
+           "--set", "morphology.hot_spots={ temperature = [600, 800] }")
 
 
 class Domains(program.ProgramTest):
