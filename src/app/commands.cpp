@@ -142,6 +142,26 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   return ExitCode::success;
 }
 
+void declare_compare(Command& command, CLI::App& app) {
+  CompareOptions& options = command.compare;
+  CLI::App* compare = app.add_subcommand("compare", "similarity of runs from their morphology");
+  compare
+      ->add_option("runs", options.runs,
+                   "output folders, or morphology files; the first one is "
+                   "the reference")
+      ->required();
+  compare->add_option("--field", options.field, "field (default temperature)");
+  compare->add_option("--threshold", options.threshold,
+                      "threshold of the reference (default all that it measured)");
+  compare->add_option("--window", options.window,
+                      "BEGIN:END in seconds (default: to the end of loading of the slower run)");
+  compare->add_option("--chi", options.chi, "chi (default), chi4, chi6 or chi_paper");
+  compare->add_option("--length", options.length,
+                      "unit of length in metres (default: the pixel, the same in all runs)");
+  compare->add_option("--output", options.output, "file to write, .h5 or .csv");
+  compare->callback([&command] { command.kind = CommandKind::compare; });
+}
+
 }  // namespace
 
 void declare(Command& command, CLI::App& app) {
@@ -162,6 +182,7 @@ void declare(Command& command, CLI::App& app) {
   sample->add_option("--output", command.output, "output folder (default output/<scene>-sample)");
   sample->add_flag("--force", command.force, "replace our files in an existing output folder");
   sample->callback([&command] { command.kind = CommandKind::sample; });
+  declare_compare(command, app);
   CLI::App* info = app.add_subcommand("info", "say what a file of this program holds");
   info->add_option("file", command.file, "HDF5 or CSV file")->required();
   info->callback([&command] { command.kind = CommandKind::info; });
@@ -184,6 +205,9 @@ ExitCode execute(const Command& command, MPI_Comm communicator) {
       write_sample(scene, folder, command.force, communicator);
       return ExitCode::success;
     }
+    case CommandKind::compare:
+      compare(command.compare, communicator);
+      return ExitCode::success;
     case CommandKind::info:
       on_rank_zero(communicator, [&] { std::printf("%s", describe(command.file).c_str()); });
       return ExitCode::success;

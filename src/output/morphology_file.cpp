@@ -14,36 +14,20 @@ namespace poreshock {
 
 namespace {
 
-/// Names of the entries of a folder of a file, one level deep.
-std::set<std::string> names_in(const std::vector<DatasetInfo>& datasets,
-                               const std::string& folder) {
-  std::set<std::string> names;
+/// Throws when the file holds no thresholds of the field.
+void require_field(const std::string& path, const std::vector<DatasetInfo>& datasets,
+                   const std::string& field) {
+  std::string known;
   for (const DatasetInfo& info : datasets) {
-    if (!info.path.starts_with(folder)) continue;
-    const std::string rest = info.path.substr(folder.size());
-    names.insert(rest.substr(0, rest.find('/')));
+    if (!info.path.ends_with("/threshold") || info.path.find("/domains/") != std::string::npos) {
+      continue;
+    }
+    const std::string name = info.path.substr(1, info.path.rfind('/') - 1);
+    if (name == field) return;
+    known.append(known.empty() ? "" : ", ").append(name);
   }
-  return names;
-}
-
-std::string joined(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
-
-/// Throws when one of the datasets is not there.
-void require_curves(const std::string& path, const std::vector<DatasetInfo>& datasets,
-                    const std::string& field, const std::vector<std::string>& functionals) {
-  const std::set<std::string> fields = names_in(datasets, "/");
-  if (!fields.contains(field)) {
-    throw InputError(path + ": holds no field \"" + field + "\", allowed " + joined(fields));
-  }
-  const std::set<std::string> names = names_in(datasets, "/" + field + "/");
-  for (const std::string& name : functionals) {
-    if (names.contains(name)) continue;
-    throw InputError(path + ": holds no " + name + " of " + field + ", allowed " + joined(names));
-  }
+  throw InputError(path + ": holds no morphology of \"" + field + "\", allowed " +
+                   (known.empty() ? "none, it is no file of morphology" : known));
 }
 
 }  // namespace
@@ -58,33 +42,31 @@ void write_morphology(const std::string& path, const MorphologyStamp& stamp,
 }
 
 MorphologyCurves read_morphology(const std::string& path, const std::string& field,
-                                 const std::vector<std::string>& functionals,
                                  MPI_Comm communicator) {
-  std::error_code none;
-  const bool folder = std::filesystem::is_directory(path, none);
-  const std::string file_path = folder ? path + "/morphology.h5" : path;
+  std::string file_path = path;
   on_rank_zero(communicator, [&] {
-    if (folder && !std::filesystem::exists(file_path)) {
-      throw InputError(file_path +
-                       ": not found; it is written at the end of a run that has a [morphology]");
-    }
+    if (!std::filesystem::is_directory(path)) return;
+    file_path = path + "/morphology.h5";
+    if (std::filesystem::exists(file_path)) return;
+    throw InputError(file_path +
+                     ": not found; it is written at the end of a run that has a [morphology]");
   });
-  verify(file_path, communicator);
+  broadcast(file_path, communicator);
   Hdf5File file = Hdf5File::open(file_path, communicator);
-  require_curves(file_path, file.datasets(), field, functionals);
+  const std::vector<DatasetInfo> datasets = file.datasets();
+  require_field(file_path, datasets, field);
+  verify(file_path, communicator);
   const std::string prefix = "/" + field + "/";
   MorphologyCurves curves;
   curves.unit = file.dataset(prefix + "threshold").unit;
   curves.pixel = file.number("pixel");
   curves.threshold = file.read_all<double>(prefix + "threshold");
   curves.time = file.read_all<double>(prefix + "time");
-  curves.names = functionals;
-  for (const std::string& name : functionals) {
-    curves.values.push_back(file.read_all<double>(prefix + name));
-    if (curves.values.back().size() == curves.time.size() * curves.threshold.size()) continue;
-    throw InputError(file_path + ": " + name + " of " + field +
-                     " is no curve over times and "
-                     "thresholds");
+  const std::vector<std::uint64_t> shape = {curves.time.size(), curves.threshold.size()};
+  for (const DatasetInfo& info : datasets) {
+    const bool own = info.path.starts_with(prefix) && info.path.rfind('/') + 1 == prefix.size();
+    if (!own || info.type != NumberType::float64 || info.shape != shape) continue;
+    curves.functionals[info.path.substr(prefix.size())] = file.read_all<double>(info.path);
   }
   return curves;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "poreshock/app/compare.hpp"
 #include "poreshock/core/error.hpp"
 
 namespace CLI {
@@ -14,7 +15,7 @@ class App;
 
 namespace poreshock {
 
-enum class CommandKind { run, check, sample, info };
+enum class CommandKind { run, check, sample, compare, info };
 
 /// What the command line asks for.
 struct Command {
@@ -26,6 +27,7 @@ struct Command {
   double wall_limit = 0.0;  ///< s
   bool force = false;
   bool quiet = false;
+  CompareOptions compare;
 };
 
 /// Declares all commands and their options. Not collective.

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,21 +54,19 @@ std::string morphology_name(std::int64_t record);
 void write_morphology(const std::string& path, const MorphologyStamp& stamp,
                       const std::vector<MorphologyRecord>& records, MPI_Comm communicator);
 
-/// Curves of one field over the records of a run.
+/// Functionals of one field over the records of a run.
 struct MorphologyCurves {
-  std::string unit;                         ///< of the thresholds
-  double pixel = 0.0;                       ///< m, side of a pixel
-  std::vector<double> threshold;            ///< ascending
-  std::vector<double> time;                 ///< s, ascending
-  std::vector<std::string> names;           ///< of the functionals asked for
-  std::vector<std::vector<double>> values;  ///< per functional, times x thresholds
+  std::string unit;                                        ///< of the thresholds
+  double pixel = 0.0;                                      ///< m, side of a pixel
+  std::vector<double> threshold;                           ///< ascending
+  std::vector<double> time;                                ///< s, ascending
+  std::map<std::string, std::vector<double>> functionals;  ///< by name, each times x thresholds
 };
 
-/// Reads functionals of one field from morphology.h5 of a folder, or from the file `path` itself,
-/// whole on every rank. InputError on all ranks, with what the file holds, when it is missing,
-/// damaged, or lacks the field or a functional. Collective.
+/// Reads all functionals of one field from morphology.h5 of a folder, or from the file `path`
+/// itself, whole on every rank. InputError on all ranks when the file is missing or damaged, or
+/// lacks the field. Collective.
 MorphologyCurves read_morphology(const std::string& path, const std::string& field,
-                                 const std::vector<std::string>& functionals,
                                  MPI_Comm communicator);
 
 /// Takes the records from number `first` on out of morphology.h5, which a restarted run is about to
