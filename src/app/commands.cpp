@@ -142,6 +142,23 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   return ExitCode::success;
 }
 
+void declare_analyze(Command& command, CLI::App& app) {
+  AnalyzeOptions& options = command.analyze;
+  CLI::App* analyze = app.add_subcommand("analyze", "morphology of stored fields");
+  analyze->add_option("files", options.files, "snapshots, FILE.npy or FILE.h5:/path")->required();
+  analyze->add_option("--thresholds", options.thresholds, "FROM:TO:STEP or A,B,C")->required();
+  analyze->add_option("--hot-spots", options.hot_spots,
+                      "thresholds at which every hot spot is listed, written the same way");
+  analyze->add_option("--field", options.field,
+                      "field of a snapshot (default temperature), name of an array");
+  analyze->add_option("--mask", options.mask, "array, not zero = material (default: not NaN)");
+  analyze->add_option("--periodic", options.periodic, "lateral axes of an array that wrap: x, y");
+  analyze->add_option("--pixel", options.pixel, "side of a pixel in metres");
+  analyze->add_option("--output", options.output, "folder for morphology.h5");
+  analyze->add_flag("--force", options.force, "replace our files in an existing output folder");
+  analyze->callback([&command] { command.kind = CommandKind::analyze; });
+}
+
 void declare_compare(Command& command, CLI::App& app) {
   CompareOptions& options = command.compare;
   CLI::App* compare = app.add_subcommand("compare", "similarity of runs from their morphology");
@@ -182,6 +199,7 @@ void declare(Command& command, CLI::App& app) {
   sample->add_option("--output", command.output, "output folder (default output/<scene>-sample)");
   sample->add_flag("--force", command.force, "replace our files in an existing output folder");
   sample->callback([&command] { command.kind = CommandKind::sample; });
+  declare_analyze(command, app);
   declare_compare(command, app);
   CLI::App* info = app.add_subcommand("info", "say what a file of this program holds");
   info->add_option("file", command.file, "HDF5 or CSV file")->required();
@@ -205,6 +223,9 @@ ExitCode execute(const Command& command, MPI_Comm communicator) {
       write_sample(scene, folder, command.force, communicator);
       return ExitCode::success;
     }
+    case CommandKind::analyze:
+      analyze(command.analyze, communicator);
+      return ExitCode::success;
     case CommandKind::compare:
       compare(command.compare, communicator);
       return ExitCode::success;

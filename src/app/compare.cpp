@@ -1,6 +1,5 @@
 #include "poreshock/app/compare.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -11,17 +10,11 @@
 #include "poreshock/morphology/similarity.hpp"
 #include "poreshock/output/comparison_file.hpp"
 #include "poreshock/output/morphology_file.hpp"
+#include "text.hpp"
 
 namespace poreshock {
 
 namespace {
-
-std::optional<double> parse_number(std::string_view text) {
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = result.ec == std::errc{} && result.ptr == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
 
 std::optional<Window> parse_window(const std::string& text) {
   if (text.empty()) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "poreshock/app/analyze.hpp"
 #include "poreshock/app/compare.hpp"
 #include "poreshock/core/error.hpp"
 
@@ -15,7 +16,7 @@ class App;
 
 namespace poreshock {
 
-enum class CommandKind { run, check, sample, compare, info };
+enum class CommandKind { run, check, sample, analyze, compare, info };
 
 /// What the command line asks for.
 struct Command {
@@ -27,6 +28,7 @@ struct Command {
   double wall_limit = 0.0;  ///< s
   bool force = false;
   bool quiet = false;
+  AnalyzeOptions analyze;
   CompareOptions compare;
 };
 
