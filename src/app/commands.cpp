@@ -86,10 +86,12 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
   const Morphology& a = now.morphology;
   const Morphology& b = stored.morphology;
   if (!continues || a.every == 0.0 || b.every == 0.0) return;
-  if (a.pixel == b.pixel && a.fields == b.fields && a.domains == b.domains) return;
+  Morphology same = a;
+  same.every = b.every;
+  if (same == b) return;
   throw InputError(
       path +
-      " was written with other morphology fields, thresholds, domains or pixel, which "
+      " was written with other morphology fields, thresholds, domains, lattice or pixel, which "
       "cannot go on in the same folder: keep them, or choose another folder with --output");
 }
 

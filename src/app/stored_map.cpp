@@ -5,6 +5,7 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/scene/read_scene.hpp"
 
@@ -158,8 +159,13 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
                                double largest, MPI_Comm communicator) {
   Hdf5File file = Hdf5File::open(path, communicator);
   const Scene scene = parse_scene(file.text("scene"), path);
-  const double own_pixel =
-      scene.morphology.pixel > 0.0 ? scene.morphology.pixel : scene.domain.cell;
+  const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
+  const double own_pixel = scene.morphology.pixel;
+  if (sites && options.pixel > 0.0) {
+    throw InputError(
+        "--pixel: the run measured on the lattice of its particles, which has pixels "
+        "of its own");
+  }
   const double pixel = options.pixel > 0.0 ? options.pixel : own_pixel;
   const PixelGrid<Dim> grid(communicator, layout_of<Dim>(scene, pixel));
   StoredMap<Dim> result;
@@ -169,10 +175,16 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
                   file.text("scene"), pixel};
   const Columns columns{equal_share(file.dataset("/particles/id").rows(), communicator), path,
                         file};
+  const std::vector<double> values = read_field<Dim>(result.field, columns);
+  if (sites) {
+    std::vector<std::int64_t> id(columns.rows.count);
+    file.read<std::int64_t>("/particles/id", columns.rows.first, id);
+    result.map = place_on_lattice<Dim>(id, {values}, grid);
+    return result;
+  }
   auto position = columns.read("position", Dim);
   const auto mass = columns.read("mass", 1);
   const auto density = columns.read("density", 1);
-  const std::vector<double> values = read_field<Dim>(result.field, columns);
   PixelSources<Dim> sources;
   for (std::size_t a = 0; a < Dim; ++a) {
     result.shift[static_cast<Eigen::Index>(a)] = file.number(std::string("origin_") + "xyz"[a]);

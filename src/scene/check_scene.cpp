@@ -220,8 +220,25 @@ void check_output(const Scene& scene, Report& report) {
   }
 }
 
+/// Sites are pixels of their own size.
+void check_site(const Scene& scene, Report& report) {
+  const double site = scene.domain.cell / scene.sample.particles_per_cell;
+  const std::string found = "found " + plain_number(scene.morphology.pixel) + " m, allowed ";
+  if (std::abs(scene.morphology.pixel / site - 1.0) <= tolerance) return;
+  add_problem("morphology.pixel",
+              found +
+                  "with lattice = \"lagrangian\" only the site, domain.cell / "
+                  "sample.particles_per_cell = " +
+                  plain_number(site) + " m",
+              report);
+}
+
 void check_pixel(const Scene& scene, Report& report) {
-  if (!good(report, {"morphology.pixel", "domain.size", "domain.cell"})) return;
+  if (!good(report, {"morphology.pixel", "morphology.lattice", "domain.size", "domain.cell",
+                     "sample.particles_per_cell"})) {
+    return;
+  }
+  if (scene.morphology.lattice == MapLattice::lagrangian) return check_site(scene, report);
   const double pixel = scene.morphology.pixel;
   const double power = std::round(std::log2(pixel / scene.domain.cell));
   const double ratio = pixel / (scene.domain.cell * std::exp2(power));

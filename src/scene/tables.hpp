@@ -250,9 +250,17 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
   Morphology& morphology = scene.morphology;
   visitor.number("every", morphology.every,
                  {not_negative, "s", "between records, multiple of output.beat; 0 = off"});
-  visitor.fallback(morphology.pixel, scene.domain.cell);
-  visitor.number("pixel", morphology.pixel,
-                 {positive, "m", "cell times 1/8, 1/4, 1/2, 1, 2, 4 or 8, by default the cell"});
+  const Names<MapLattice> lattices{{"eulerian", MapLattice::eulerian},
+                                   {"lagrangian", MapLattice::lagrangian}};
+  choice(visitor, "lattice", morphology.lattice, lattices,
+         {"pixels in space, or the sites where the particles started"});
+  const bool sites = morphology.lattice == MapLattice::lagrangian;
+  visitor.fallback(morphology.pixel,
+                   scene.domain.cell / (sites ? scene.sample.particles_per_cell : 1));
+  visitor.number(
+      "pixel", morphology.pixel,
+      {positive, "m",
+       "cell times 1/8 ... 8, by default the cell; lagrangian: cell/particles_per_cell"});
   std::vector<std::string> names;
   for (const MorphologyField& field : morphology.fields) names.push_back(field.name);
   visitor.names("fields", names, morphology_fields, {"fields to measure"});

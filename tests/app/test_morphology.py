@@ -58,6 +58,31 @@ class Domains(program.ProgramTest):
         self.assertTrue(((spots["centroid"][still] > 0) & (spots["centroid"][still] < [0.2e-3, 0.48e-3])).all())
         numpy.testing.assert_allclose(spots["area"], spots["pixels"] * 10e-6 ** 2, rtol=1e-12)
 
+    def test_sites_of_the_particles(self):
+        """On the initial lattice every particle is a pixel from first to last: voids never close."""
+        sites = ("--set", "morphology.lattice=lagrangian", *DOMAINS)
+        for ranks in (1, 3):
+            self.run_scene("porous.toml", f"sites{ranks}", *sites, ranks=ranks)
+        self.assert_same_datasets("sites1/morphology.h5", "sites3/morphology.h5")
+        found = program.datasets(self.folder / "sites1/morphology.h5")
+        particles = [program.particles(path) for path in sorted((self.folder / "sites1").glob("snapshot_*.h5"))]
+        self.assertEqual(set(found["temperature/pixels"]), {len(particles[0]["id"])})
+        hot = particles[-1]["temperature"][:, None] >= found["temperature/threshold"]
+        numpy.testing.assert_array_equal(found["temperature/F"][-1], hot.sum(axis=0))
+        # Two neighbouring sites along x, one above and one below the threshold, are an edge inside.
+        image = numpy.full((96, 40), numpy.nan)
+        image.flat[particles[-1]["id"]] = particles[-1]["temperature"]
+        for level, length in zip(found["temperature/threshold"], found["temperature/B_int"][-1]):
+            edges = 0
+            for other in (numpy.roll(image, -1, axis=1), numpy.vstack((image[1:], numpy.full((1, 40), numpy.nan)))):
+                both = ~numpy.isnan(image) & ~numpy.isnan(other)
+                edges += (both & ((image >= level) != (other >= level))).sum()
+            self.assertEqual(length, edges)
+        # What the run measured is what a snapshot of it gives.
+        self.succeed("analyze", "sites1/snapshot_000008.h5", "--thresholds", "310:900:10", "--output", "after")
+        after = program.datasets(self.folder / "after/morphology.h5")
+        numpy.testing.assert_array_equal(after["temperature/chi_paper"][0], found["temperature/chi_paper"][-1])
+
     def test_no_domains_unless_asked_for(self):
         self.run_scene("porous.toml", "plain", "--set", "time.end=5e-9")
         names = list(program.datasets(self.folder / "plain/morphology.h5"))

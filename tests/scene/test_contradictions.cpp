@@ -225,6 +225,10 @@ TEST(Contradictions, Pixel) {
       "--set morphology.pixel=4e-5: morphology.pixel: found 4e-05 m, allowed whole parts of the "
       "domain, 0.0001 m along x");
   EXPECT_EQ(override_problems("morphology.pixel=1.25e-6"), "");
+  EXPECT_EQ(problems(small_scene("[morphology]\nlattice = \"lagrangian\"\n")), "");
+  EXPECT_EQ(problems(small_scene("[morphology]\nlattice = \"lagrangian\"\npixel = 1e-5\n")),
+            "s.toml:20:9: morphology.pixel: found 1e-05 m, allowed with lattice = \"lagrangian\" "
+            "only the site, domain.cell / sample.particles_per_cell = 5e-06 m");
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ enum class PorosityDefinition { void_fraction, distension_minus_1 };
 enum class ShapeFunction { quadratic, cubic };
 enum class VelocityTransfer { flip, apic };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
+enum class MapLattice { eulerian, lagrangian };
 enum class Precision { double_precision, single_precision };
 
 /// The block of background cells.
@@ -128,9 +129,10 @@ struct MorphologyField {
 
 struct Morphology {
   double every = 0.0;  ///< s, 0 = off
-  double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3)
+  double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3); the site if lagrangian
   std::vector<MorphologyField> fields;
-  bool domains = false;  ///< count hot and cold domains at all thresholds
+  MapLattice lattice = MapLattice::eulerian;  ///< pixels in space, or sites of the initial lattice
+  bool domains = false;                       ///< count hot and cold domains at all thresholds
   bool operator==(const Morphology&) const = default;
 };
 
