@@ -222,6 +222,7 @@ void check_output(const Scene& scene, Report& report) {
 
 /// Sites are pixels of their own size.
 void check_site(const Scene& scene, Report& report) {
+  if (!good(report, {"morphology.pixel", "domain.cell", "sample.particles_per_cell"})) return;
   const double site = scene.domain.cell / scene.sample.particles_per_cell;
   const std::string found = "found " + plain_number(scene.morphology.pixel) + " m, allowed ";
   if (std::abs(scene.morphology.pixel / site - 1.0) <= tolerance) return;
@@ -234,11 +235,7 @@ void check_site(const Scene& scene, Report& report) {
 }
 
 void check_pixel(const Scene& scene, Report& report) {
-  if (!good(report, {"morphology.pixel", "morphology.lattice", "domain.size", "domain.cell",
-                     "sample.particles_per_cell"})) {
-    return;
-  }
-  if (scene.morphology.lattice == MapLattice::lagrangian) return check_site(scene, report);
+  if (!good(report, {"morphology.pixel", "domain.size", "domain.cell"})) return;
   const double pixel = scene.morphology.pixel;
   const double power = std::round(std::log2(pixel / scene.domain.cell));
   const double ratio = pixel / (scene.domain.cell * std::exp2(power));
@@ -259,7 +256,8 @@ void check_pixel(const Scene& scene, Report& report) {
 }
 
 void check_morphology(const Scene& scene, Report& report) {
-  check_pixel(scene, report);
+  const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
+  sites ? check_site(scene, report) : check_pixel(scene, report);
   if (!good(report, {"morphology.every", "morphology.fields"})) return;
   if (scene.morphology.every > 0.0 && scene.morphology.fields.empty()) {
     add_problem("morphology.fields", "missing, give at least one field, or every = 0", report);
