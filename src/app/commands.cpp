@@ -88,10 +88,13 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
   const Morphology& a = now.morphology;
   const Morphology& b = stored.morphology;
   if (!continues || a.every == 0.0 || b.every == 0.0) return;
-  if (a.pixel == b.pixel && a.fields == b.fields) return;
-  throw InputError(path +
-                   " was written with other morphology fields, thresholds or pixel, which cannot "
-                   "go on in the same folder: keep them, or choose another folder with --output");
+  Morphology same = a;
+  same.every = b.every;
+  if (same == b) return;
+  throw InputError(
+      path +
+      " was written with other morphology fields, thresholds, domains, lattice or pixel, which "
+      "cannot go on in the same folder: keep them, or choose another folder with --output");
 }
 
 /// A checkpoint from elsewhere does not make an existing folder ours to go on in.
@@ -143,6 +146,43 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   return ExitCode::success;
 }
 
+void declare_analyze(Command& command, CLI::App& app) {
+  AnalyzeOptions& options = command.analyze;
+  CLI::App* analyze = app.add_subcommand("analyze", "morphology of stored fields");
+  analyze->add_option("files", options.files, "snapshots, FILE.npy or FILE.h5:/path")->required();
+  analyze->add_option("--thresholds", options.thresholds, "FROM:TO:STEP or A,B,C")->required();
+  analyze->add_option("--hot-spots", options.hot_spots,
+                      "thresholds at which every hot spot is listed, written the same way");
+  analyze->add_option("--field", options.field,
+                      "field of a snapshot (default temperature), name of an array");
+  analyze->add_option("--mask", options.mask, "array, not zero = material (default: not NaN)");
+  analyze->add_option("--periodic", options.periodic, "lateral axes of an array that wrap: x, y");
+  analyze->add_option("--pixel", options.pixel, "side of a pixel in metres");
+  analyze->add_option("--output", options.output, "folder for morphology.h5");
+  analyze->add_flag("--force", options.force, "replace our files in an existing output folder");
+  analyze->callback([&command] { command.kind = CommandKind::analyze; });
+}
+
+void declare_compare(Command& command, CLI::App& app) {
+  CompareOptions& options = command.compare;
+  CLI::App* compare = app.add_subcommand("compare", "similarity of runs from their morphology");
+  compare
+      ->add_option("runs", options.runs,
+                   "output folders, or morphology files; the first one is "
+                   "the reference")
+      ->required();
+  compare->add_option("--field", options.field, "field (default temperature)");
+  compare->add_option("--threshold", options.threshold,
+                      "threshold of the reference (default all that it measured)");
+  compare->add_option("--window", options.window,
+                      "BEGIN:END in seconds (default: to the end of loading of the slower run)");
+  compare->add_option("--chi", options.chi, "chi (default), chi4, chi6 or chi_paper");
+  compare->add_option("--length", options.length,
+                      "unit of length in metres (default: the pixel, the same in all runs)");
+  compare->add_option("--output", options.output, "file to write, .h5 or .csv");
+  compare->callback([&command] { command.kind = CommandKind::compare; });
+}
+
 }  // namespace
 
 void declare(Command& command, CLI::App& app) {
@@ -163,6 +203,8 @@ void declare(Command& command, CLI::App& app) {
   sample->add_option("--output", command.output, "output folder (default output/<scene>-sample)");
   sample->add_flag("--force", command.force, "replace our files in an existing output folder");
   sample->callback([&command] { command.kind = CommandKind::sample; });
+  declare_analyze(command, app);
+  declare_compare(command, app);
   CLI::App* info = app.add_subcommand("info", "say what a file of this program holds");
   info->add_option("file", command.file, "HDF5 or CSV file")->required();
   info->callback([&command] { command.kind = CommandKind::info; });
@@ -185,6 +227,12 @@ ExitCode execute(const Command& command, MPI_Comm communicator) {
       write_sample(scene, folder, command.force, communicator);
       return ExitCode::success;
     }
+    case CommandKind::analyze:
+      analyze(command.analyze, communicator);
+      return ExitCode::success;
+    case CommandKind::compare:
+      compare(command.compare, communicator);
+      return ExitCode::success;
     case CommandKind::info:
       on_rank_zero(communicator, [&] { std::printf("%s", describe(command.file).c_str()); });
       return ExitCode::success;

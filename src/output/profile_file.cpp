@@ -17,9 +17,9 @@ RecordTables make_tables(const RecordStamp& stamp, const Profile& profile) {
   row = one_record(stamp);
   row.axis_unit = std::string("m");
   row.axis = profile.height;
-  row.series["shift"] = {"m", 0, false, {}, {profile.shift}};
+  row.curves.series["shift"] = {"m", 0, false, {}, {profile.shift}};
   const auto add = [&](const char* name, const char* unit, const std::vector<double>& values) {
-    if (!values.empty()) row.series[name] = {unit, values.size(), false, {}, values};
+    if (!values.empty()) row.curves.series[name] = {unit, values.size(), false, {}, values};
   };
   add("solid_fraction", "1", profile.solid_fraction);
   add("density", "kg/m^3", profile.density);
@@ -33,8 +33,8 @@ RecordTables make_tables(const RecordStamp& stamp, const Profile& profile) {
   add("fluctuation", "J/kg", profile.fluctuation);
   RecordTable& front = tables["front"];
   front = one_record(stamp);
-  front.series["position"] = {"m", 0, false, {}, {profile.front}};
-  front.series["width"] = {"m", 0, false, {}, {profile.width}};
+  front.curves.series["position"] = {"m", 0, false, {}, {profile.front}};
+  front.curves.series["width"] = {"m", 0, false, {}, {profile.width}};
   return tables;
 }
 

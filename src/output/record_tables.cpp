@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <set>
 
 #include "poreshock/core/error.hpp"
@@ -14,6 +15,8 @@ namespace poreshock {
 
 namespace {
 
+const std::string thing_folder = "domains/";
+
 std::string group_folder(const std::string& group) {
   return std::string("/").append(group).append("/");
 }
@@ -22,35 +25,51 @@ std::vector<NumberedFile> record_files(const std::string& folder, const TableFor
   return numbered_files(folder, format.kind + "_", 6, ".h5");
 }
 
+void declare(const std::string& folder, const Rows& rows, FileSpec& spec) {
+  const std::uint64_t count = rows.records.size();
+  spec.datasets.push_back({folder + "record", NumberType::int64, {count}, "1", {}});
+  for (const auto& [name, series] : rows.series) {
+    std::vector<std::uint64_t> shape = {count};
+    if (series.width > 0) shape.push_back(series.width);
+    const NumberType type = series.integer ? NumberType::int64 : NumberType::float64;
+    spec.datasets.push_back({folder + name, type, shape, series.unit, {}});
+  }
+}
+
 FileSpec file_spec(const TableFormat& format, const RecordStamp& stamp,
                    const RecordTables& tables) {
   FileSpec spec;
   spec.attributes = root_attributes(format.kind, stamp.time, stamp.step, stamp.scene_text);
   spec.attributes.push_back({"record", stamp.record});
+  for (const std::string& name : format.numbers) {
+    spec.attributes.push_back({name, stamp.numbers.at(name)});
+  }
   for (const auto& [group, table] : tables) {
     const std::string folder = group_folder(group);
-    const std::uint64_t rows = table.records.size();
-    spec.datasets.push_back({folder + "record", NumberType::int64, {rows}, "1", {}});
+    declare(folder, table.curves, spec);
     if (!table.axis.empty()) {
       spec.datasets.push_back(
           {folder + format.axis, NumberType::float64, {table.axis.size()}, table.axis_unit, {}});
     }
-    for (const auto& [name, series] : table.series) {
-      std::vector<std::uint64_t> shape = {rows};
-      if (series.width > 0) shape.push_back(series.width);
-      spec.datasets.push_back({folder + name,
-                               series.integer ? NumberType::int64 : NumberType::float64,
-                               shape,
-                               series.unit,
-                               {}});
-    }
+    if (!table.things.series.empty()) declare(folder + thing_folder, table.things, spec);
   }
   return spec;
 }
 
-Series read_series(Hdf5File& file, const DatasetInfo& info) {
-  Series series{
-      info.unit, info.shape.size() > 1 ? info.shape[1] : 0, info.type == NumberType::int64, {}, {}};
+void write_rows(const std::string& folder, const Rows& rows, Hdf5File& file) {
+  file.write<std::int64_t>(folder + "record", 0, rows.records);
+  for (const auto& [name, series] : rows.series) {
+    if (series.integer) {
+      file.write<std::int64_t>(folder + name, 0, series.integers);
+    } else {
+      file.write<double>(folder + name, 0, series.numbers);
+    }
+  }
+}
+
+Series read_series(const DatasetInfo& info, Hdf5File& file) {
+  Series series{info.unit, info.shape.size() > 1 ? info.shape[1] : 0,
+                info.type == NumberType::int64};
   if (series.integer) {
     series.integers = file.read_all<std::int64_t>(info.path);
   } else {
@@ -59,10 +78,19 @@ Series read_series(Hdf5File& file, const DatasetInfo& info) {
   return series;
 }
 
+void read_into(const DatasetInfo& info, const std::string& name, Hdf5File& file, Rows& rows) {
+  if (name == "record") {
+    rows.records = file.read_all<std::int64_t>(info.path);
+  } else {
+    rows.series[name] = read_series(info, file);
+  }
+}
+
 RecordTables read_tables(const std::string& path, const TableFormat& format, RecordStamp& stamp) {
   verify(path, MPI_COMM_SELF);
   Hdf5File file = Hdf5File::open(path, MPI_COMM_SELF);
   stamp = {file.integer("record"), file.integer("step"), file.number("time"), file.text("scene")};
+  for (const std::string& name : format.numbers) stamp.numbers[name] = file.number(name);
   RecordTables tables;
   for (const DatasetInfo& info : file.datasets()) {
     const std::size_t slash = info.path.find('/', 1);
@@ -72,10 +100,10 @@ RecordTables read_tables(const std::string& path, const TableFormat& format, Rec
     if (name == format.axis) {
       table.axis_unit = info.unit;
       table.axis = file.read_all<double>(info.path);
-    } else if (name == "record") {
-      table.records = file.read_all<std::int64_t>(info.path);
+    } else if (name.starts_with(thing_folder)) {
+      read_into(info, name.substr(thing_folder.size()), file, table.things);
     } else {
-      table.series[name] = read_series(file, info);
+      read_into(info, name, file, table.curves);
     }
   }
   return tables;
@@ -90,62 +118,64 @@ void append_row(const std::vector<T>& from, std::size_t row, std::uint64_t width
   to.insert(to.end(), first, first + count);
 }
 
-void append_record(const RecordTable& from, std::size_t row, RecordTable& to) {
+void append_row(const Rows& from, std::size_t row, Rows& to) {
   to.records.push_back(from.records[row]);
   for (auto& [name, series] : to.series) {
-    const Series& s = from.series.at(name);
-    append_row(s.integers, row, s.width, series.integers);
-    append_row(s.numbers, row, s.width, series.numbers);
+    const Series& source = from.series.at(name);
+    append_row(source.integers, row, source.width, series.integers);
+    append_row(source.numbers, row, source.width, series.numbers);
   }
 }
 
-/// The table without its records.
-RecordTable empty_like(const RecordTable& source) {
-  RecordTable table = {source.axis_unit, source.axis, {}, {}};
-  for (const auto& [name, s] : source.series) {
-    table.series[name] = {s.unit, s.width, s.integer, {}, {}};
-  }
-  return table;
+/// The same datasets without rows.
+Rows emptied(const Rows& rows) {
+  Rows result;
+  for (const auto& [name, s] : rows.series) result.series[name] = {s.unit, s.width, s.integer};
+  return result;
 }
 
-bool same_series(const RecordTable& a, const RecordTable& b) {
-  return a.series.size() == b.series.size() &&
-         std::all_of(b.series.begin(), b.series.end(), [&](const auto& entry) {
-           const auto found = a.series.find(entry.first);
-           return found != a.series.end() && found->second.width == entry.second.width &&
-                  found->second.integer == entry.second.integer;
-         });
+bool same_datasets(const Rows& a, const Rows& b) {
+  return std::equal(a.series.begin(), a.series.end(), b.series.begin(), b.series.end(),
+                    [](const auto& x, const auto& y) {
+                      return x.first == y.first && x.second.width == y.second.width &&
+                             x.second.integer == y.second.integer;
+                    });
+}
+
+void append_rows(const Rows& from, const std::set<std::int64_t>& skip, Rows& to) {
+  for (std::size_t row = 0; row < from.records.size(); ++row) {
+    if (!skip.contains(from.records[row])) append_row(from, row, to);
+  }
 }
 
 /// Appends the rows of one file whose record is not in `skip`.
 void append_tables(const std::string& path, const TableFormat& format, const RecordTables& from,
                    const std::set<std::int64_t>& skip, RecordTables& to) {
   for (const auto& [group, source] : from) {
-    if (!to.contains(group)) to[group] = empty_like(source);
+    if (!to.contains(group)) {
+      to[group] = {source.axis_unit, source.axis, emptied(source.curves), emptied(source.things)};
+    }
     RecordTable& table = to[group];
     if (table.axis != source.axis || table.axis_unit != source.axis_unit ||
-        !same_series(table, source)) {
+        !same_datasets(table.curves, source.curves) ||
+        !same_datasets(table.things, source.things)) {
       throw InputError(path + ": cannot be merged, the " + format.axis + "s or curves of " + group +
                        " differ from those of the earlier records; move it away");
     }
-    for (std::size_t row = 0; row < source.records.size(); ++row) {
-      if (!skip.contains(source.records[row])) append_record(source, row, table);
-    }
+    append_rows(source.curves, skip, table.curves);
+    append_rows(source.things, skip, table.things);
   }
 }
 
-/// Puts the rows of all tables into the order of their records.
-void sort_by_record(RecordTables& tables) {
-  for (auto& [group, table] : tables) {
-    std::vector<std::size_t> order(table.records.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(), [&records = table.records](std::size_t a, std::size_t b) {
-      return records[a] < records[b];
-    });
-    RecordTable sorted = empty_like(table);
-    for (const std::size_t row : order) append_record(table, row, sorted);
-    table = std::move(sorted);
-  }
+/// Puts rows into the order of their records.
+void sort_by_record(Rows& rows) {
+  std::vector<std::size_t> order(rows.records.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rows.records[a] < rows.records[b]; });
+  Rows sorted = emptied(rows);
+  for (const std::size_t row : order) append_row(rows, row, sorted);
+  rows = std::move(sorted);
 }
 
 }  // namespace
@@ -156,9 +186,9 @@ Series integer_series(std::vector<std::int64_t> values, std::uint64_t width) {
 
 RecordTable one_record(const RecordStamp& stamp) {
   RecordTable table;
-  table.records = {stamp.record};
-  table.series["time"] = {"s", 0, false, {}, {stamp.time}};
-  table.series["step"] = integer_series({stamp.step}, 0);
+  table.curves.records = {stamp.record};
+  table.curves.series["time"] = {"s", 0, false, {}, {stamp.time}};
+  table.curves.series["step"] = integer_series({stamp.step}, 0);
   return table;
 }
 
@@ -172,15 +202,9 @@ void write_tables(const std::string& path, const TableFormat& format, const Reco
       Hdf5File::create(path, file_spec(format, stamp, tables), MPI_COMM_SELF, Replace::yes);
   for (const auto& [group, table] : tables) {
     const std::string folder = group_folder(group);
-    file.write<std::int64_t>(folder + "record", 0, table.records);
+    write_rows(folder, table.curves, file);
     if (!table.axis.empty()) file.write<double>(folder + format.axis, 0, table.axis);
-    for (const auto& [name, series] : table.series) {
-      if (series.integer) {
-        file.write<std::int64_t>(folder + name, 0, series.integers);
-      } else {
-        file.write<double>(folder + name, 0, series.numbers);
-      }
-    }
+    if (!table.things.series.empty()) write_rows(folder + thing_folder, table.things, file);
   }
   file.finish();
 }
@@ -192,13 +216,13 @@ void remove_tables_from(const std::string& folder, const TableFormat& format, st
   const RecordTables all = read_tables(path, format, stamp);
   std::set<std::int64_t> late;
   for (const auto& [group, table] : all) {
-    late.insert(std::lower_bound(table.records.begin(), table.records.end(), first),
-                table.records.end());
+    const std::vector<std::int64_t>& records = table.curves.records;
+    late.insert(std::lower_bound(records.begin(), records.end(), first), records.end());
   }
   if (late.empty()) return;
   RecordTables kept;
   append_tables(path, format, all, late, kept);
-  const RecordTable& table = kept.begin()->second;
+  const Rows& table = kept.begin()->second.curves;
   if (table.records.empty()) {
     remove_file(path);
     return;
@@ -223,7 +247,10 @@ std::int64_t collect_tables(const std::string& folder, const TableFormat& format
   for (const NumberedFile& file : files) {
     append_tables(file.path, format, read_tables(file.path, format, stamp), {}, all);
   }
-  sort_by_record(all);
+  for (auto& [group, table] : all) {
+    sort_by_record(table.curves);
+    sort_by_record(table.things);
+  }
   write_tables(path, format, stamp, all);
   for (const NumberedFile& file : files) remove_file(file.path);
   return static_cast<std::int64_t>(files.size());

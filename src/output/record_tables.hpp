@@ -11,21 +11,30 @@
 
 namespace poreshock {
 
-/// One dataset of a table whose first dimension is time: one row (or number) per record.
+/// One dataset whose first dimension is a list of records or of things: one row, or number, of
+/// each.
 struct Series {
   std::string unit;
-  std::uint64_t width = 0;  ///< 0 for one number per record, else entries of the axis
+  std::uint64_t width = 0;  ///< 0 for one number per row, else numbers per row
   bool integer = false;
-  std::vector<std::int64_t> integers;
-  std::vector<double> numbers;
+  std::vector<std::int64_t> integers{};
+  std::vector<double> numbers{};
+};
+
+using SeriesByName = std::map<std::string, Series>;
+
+/// Rows of some datasets, each with the record it belongs to.
+struct Rows {
+  std::vector<std::int64_t> records;
+  SeriesByName series;
 };
 
 /// All records of one group of a file; its curves share an axis.
 struct RecordTable {
   std::string axis_unit;
   std::vector<double> axis;  ///< empty when there are no curves
-  std::vector<std::int64_t> records;
-  std::map<std::string, Series> series;  ///< by name; time and step among them
+  Rows curves;               ///< one row per record; time and step among them
+  Rows things;               ///< any number of rows per record, under <group>/domains
 };
 
 /// Tables by the name of their group.
@@ -35,7 +44,8 @@ using RecordTables = std::map<std::string, RecordTable>;
 struct TableFormat {
   std::string kind;
   std::string whole;
-  std::string axis;  ///< dataset with the axis of a table
+  std::string axis;                    ///< dataset with the axis of a table
+  std::vector<std::string> numbers{};  ///< further attributes of the file
 };
 
 /// A series of integers without a unit.
@@ -47,7 +57,8 @@ RecordTable one_record(const RecordStamp& stamp);
 /// File name of a record in its folder.
 std::string record_name(const TableFormat& format, std::int64_t record);
 
-/// Writes /<group>/{record, axis, series...}, replacing an older file. SystemError when it fails.
+/// Writes /<group>/{record, axis, curves...} and /<group>/domains/{record, things...}, replacing an
+/// older file. SystemError when it fails.
 void write_tables(const std::string& path, const TableFormat& format, const RecordStamp& stamp,
                   const RecordTables& tables);
 

@@ -84,6 +84,10 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
   spec.attributes.push_back({"dimension", std::int64_t{Dim}});
   spec.attributes.push_back(
       {"thermal", input.scene.thermal == Thermal::paper ? "paper" : "conserving"});
+  // The low corner of the grid, m; positions less this are those on the grid.
+  for (int axis = 0; axis < Dim; ++axis) {
+    spec.attributes.push_back({std::string("origin_") + "xyz"[axis], input.shift[axis]});
+  }
   const auto add = [&](std::string_view name, NumberType type, int components,
                        std::string_view unit) {
     if (!wanted(input.scene, name)) return;

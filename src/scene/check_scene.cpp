@@ -277,6 +277,20 @@ void check_output(const Scene& scene, Report& report) {
   }
 }
 
+/// Sites are pixels of their own size.
+void check_site(const Scene& scene, Report& report) {
+  if (!good(report, {"morphology.pixel", "domain.cell", "sample.particles_per_cell"})) return;
+  const double site = scene.domain.cell / scene.sample.particles_per_cell;
+  const std::string found = "found " + plain_number(scene.morphology.pixel) + " m, allowed ";
+  if (std::abs(scene.morphology.pixel / site - 1.0) <= tolerance) return;
+  add_problem("morphology.pixel",
+              found +
+                  "with lattice = \"lagrangian\" only the site, domain.cell / "
+                  "sample.particles_per_cell = " +
+                  plain_number(site) + " m",
+              report);
+}
+
 void check_pixel(const Scene& scene, Report& report) {
   if (!good(report, {"morphology.pixel", "domain.size", "domain.cell"})) return;
   const double pixel = scene.morphology.pixel;
@@ -299,7 +313,8 @@ void check_pixel(const Scene& scene, Report& report) {
 }
 
 void check_morphology(const Scene& scene, Report& report) {
-  check_pixel(scene, report);
+  const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
+  sites ? check_site(scene, report) : check_pixel(scene, report);
   if (!good(report, {"morphology.every", "morphology.fields"})) return;
   if (scene.morphology.every > 0.0 && scene.morphology.fields.empty()) {
     add_problem("morphology.fields", "missing, give at least one field, or every = 0", report);

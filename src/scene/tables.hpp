@@ -268,14 +268,25 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
   Morphology& morphology = scene.morphology;
   visitor.number("every", morphology.every,
                  {not_negative, "s", "between records, multiple of output.beat; 0 = off"});
-  visitor.fallback(morphology.pixel, scene.domain.cell);
-  visitor.number("pixel", morphology.pixel,
-                 {positive, "m", "cell times 1/8, 1/4, 1/2, 1, 2, 4 or 8, by default the cell"});
+  const Names<MapLattice> lattices{{"eulerian", MapLattice::eulerian},
+                                   {"lagrangian", MapLattice::lagrangian}};
+  choice(visitor, "lattice", morphology.lattice, lattices,
+         {"pixels in space, or the sites where the particles started"});
+  const bool sites = morphology.lattice == MapLattice::lagrangian;
+  visitor.fallback(morphology.pixel,
+                   scene.domain.cell / (sites ? scene.sample.particles_per_cell : 1));
+  visitor.number(
+      "pixel", morphology.pixel,
+      {positive, "m",
+       "cell times 1/8 ... 8, by default the cell; lagrangian: cell/particles_per_cell"});
   std::vector<std::string> names;
   for (const MorphologyField& field : morphology.fields) names.push_back(field.name);
   visitor.names("fields", names, morphology_fields, {"fields to measure"});
   visitor.thresholds("thresholds", names, morphology.fields,
                      {"thresholds of each field in its unit (K, Pa, kg/m^3, m/s, Pa, 1)"});
+  visitor.flag("domains", morphology.domains, {"count hot and cold domains at all thresholds"});
+  visitor.hot_spots("hot_spots", morphology.fields,
+                    {"thresholds at which every hot domain is listed"});
 }
 
 template <typename Visitor>

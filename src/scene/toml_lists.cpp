@@ -173,35 +173,24 @@ bool TomlReader::read_levels(const toml::node& node, const std::string& key,
   return false;
 }
 
-void TomlReader::read_thresholds_by_field(const toml::table& table, const std::string& key,
-                                          std::vector<MorphologyField>& value) {
-  TomlReader inner(table, path_of(key), report_);
-  if (has_problem(report_, path_of("fields"))) inner.skip_unknown();
-  for (MorphologyField& field : value) {
-    const toml::node* node = inner.find(field.name.c_str(), Need::required,
-                                        "its thresholds, or take it out of morphology.fields");
-    if (node != nullptr) inner.read_levels(*node, field.name, field.thresholds);
-  }
-  inner.finish();
-}
-
-void TomlReader::thresholds(const char* key, const std::vector<std::string>& fields,
-                            std::vector<MorphologyField>& value, const Rule&) {
-  value.clear();
-  for (const std::string& field : fields) value.push_back({field, {}});
-  const Need need = fields.empty() ? Need::optional : Need::required;
-  const toml::node* node =
-      find(key, need,
-           "numbers in ascending order or {from = , to = , step = }, by field name if several");
-  if (node == nullptr) return;
-  const toml::table* table = node->as_table();
+void TomlReader::read_levels_by_field(const toml::node& node, const std::string& key, Need each,
+                                      std::vector<double> MorphologyField::*levels,
+                                      std::vector<MorphologyField>& fields) {
+  const toml::table* table = node.as_table();
   const bool by_field =
       table != nullptr && std::none_of(table->begin(), table->end(),
                                        [](auto&& e) { return is_range_key(e.first.str()); });
   if (by_field) {
-    read_thresholds_by_field(*table, key, value);
+    TomlReader inner(*table, path_of(key), report_);
+    if (has_problem(report_, path_of("fields"))) inner.skip_unknown();
+    for (MorphologyField& field : fields) {
+      const toml::node* own = inner.find(field.name.c_str(), each,
+                                         "its thresholds, or take it out of morphology.fields");
+      if (own != nullptr) inner.read_levels(*own, field.name, field.*levels);
+    }
+    inner.finish();
   } else if (fields.size() == 1) {
-    read_levels(*node, key, value[0].thresholds);
+    read_levels(node, key, fields[0].*levels);
   } else if (!has_problem(report_, path_of("fields"))) {
     add_problem(path_of(key),
                 fields.empty() ? "found thresholds, but morphology.fields names no field"
@@ -210,6 +199,24 @@ void TomlReader::thresholds(const char* key, const std::vector<std::string>& fie
                                      std::to_string(fields.size()),
                 report_);
   }
+}
+
+void TomlReader::thresholds(const char* key, const std::vector<std::string>& fields,
+                            std::vector<MorphologyField>& value, const Rule&) {
+  value.clear();
+  for (const std::string& field : fields) value.push_back({field});
+  const Need need = fields.empty() ? Need::optional : Need::required;
+  const toml::node* node =
+      find(key, need,
+           "numbers in ascending order or {from = , to = , step = }, by field name if several");
+  if (node == nullptr) return;
+  read_levels_by_field(*node, key, Need::required, &MorphologyField::thresholds, value);
+}
+
+void TomlReader::hot_spots(const char* key, std::vector<MorphologyField>& fields, const Rule&) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  read_levels_by_field(*node, key, Need::optional, &MorphologyField::hot_spots, fields);
 }
 
 }  // namespace poreshock::scene_text

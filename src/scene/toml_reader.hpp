@@ -53,6 +53,8 @@ class TomlReader {
   /// Thresholds of the named fields: a list or a range for one field, else a table by field name.
   void thresholds(const char* key, const std::vector<std::string>& fields,
                   std::vector<MorphologyField>& value, const Rule& rule);
+  /// Thresholds of hot spots, written the same way, for some or all of the fields.
+  void hot_spots(const char* key, std::vector<MorphologyField>& fields, const Rule& rule);
 
   /// Sets a default that follows from keys read before.
   template <typename Value>
@@ -122,8 +124,9 @@ class TomlReader {
   bool read_levels(const toml::node& node, const std::string& key, std::vector<double>& levels);
   bool read_list(const toml::array& array, const std::string& key, std::vector<double>& levels);
   bool read_range(const toml::table& table, const std::string& key, std::vector<double>& levels);
-  void read_thresholds_by_field(const toml::table& table, const std::string& key,
-                                std::vector<MorphologyField>& value);
+  void read_levels_by_field(const toml::node& node, const std::string& key, Need each,
+                            std::vector<double> MorphologyField::*levels,
+                            std::vector<MorphologyField>& fields);
 
   const toml::table& table_;
   std::string path_;

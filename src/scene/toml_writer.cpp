@@ -169,15 +169,26 @@ void TomlWriter::sides(const char* key, const std::array<SideKind, 2>& value,
   add(key, list_text(static_cast<std::size_t>(count), text), rule.about);
 }
 
+void TomlWriter::add_levels(const char* key, std::vector<double> MorphologyField::*levels,
+                            const std::vector<MorphologyField>& fields, const Rule& rule) {
+  TomlWriter inner(path_of(key));
+  for (const MorphologyField& field : fields) {
+    const std::vector<double>& own = field.*levels;
+    if (own.empty()) continue;
+    inner.add(field.name, list_text(own.size(), [&](std::size_t i) { return number_text(own[i]); }),
+              "");
+  }
+  if (!inner.entries_.empty()) add_section(path_of(key), false, rule.about, inner);
+}
+
 void TomlWriter::thresholds(const char* key, const std::vector<std::string>&,
                             const std::vector<MorphologyField>& value, const Rule& rule) {
-  if (value.empty()) return;
-  TomlWriter inner(path_of(key));
-  for (const MorphologyField& field : value) {
-    const auto text = [&](std::size_t i) { return number_text(field.thresholds[i]); };
-    inner.add(field.name, list_text(field.thresholds.size(), text), "");
-  }
-  add_section(path_of(key), false, rule.about, inner);
+  add_levels(key, &MorphologyField::thresholds, value, rule);
+}
+
+void TomlWriter::hot_spots(const char* key, const std::vector<MorphologyField>& fields,
+                           const Rule& rule) {
+  add_levels(key, &MorphologyField::hot_spots, fields, rule);
 }
 
 }  // namespace poreshock::scene_text

@@ -38,6 +38,7 @@ class TomlWriter {
              const std::array<bool, 2>& periodic, int count, const Rule& rule);
   void thresholds(const char* key, const std::vector<std::string>& names,
                   const std::vector<MorphologyField>& value, const Rule& rule);
+  void hot_spots(const char* key, const std::vector<MorphologyField>& fields, const Rule& rule);
 
   template <typename Value>
   void fallback(const Value&, const Value&) {}
@@ -80,6 +81,8 @@ class TomlWriter {
   void add(const std::string& key, const std::string& value, const std::string& comment);
   void add_section(const std::string& path, bool repeated, const std::string& about,
                    const TomlWriter& inner);
+  void add_levels(const char* key, std::vector<double> MorphologyField::*levels,
+                  const std::vector<MorphologyField>& fields, const Rule& rule);
   std::string inline_text() const;
 
   std::string path_;

@@ -3,12 +3,13 @@
 #include <cstring>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/morphology/analysis.hpp"
+#include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/solver/measure.hpp"
 #include "poreshock/solver/profiles.hpp"
 
 namespace poreshock {
@@ -27,38 +28,18 @@ std::int64_t record_number(const Simulation<Dim>& sim) {
   return sim.clock.beat + (sim.clock.time - landed > 1e-9 * sim.scene.output.beat ? 1 : 0);
 }
 
-void append_counts(const PixelCounts& c, MorphologyRecord& record) {
-  record.pixels = c.pixels;
-  record.counts = {{"F", c.F}, {"E", c.E},         {"V", c.V},           {"V4", c.V4},
-                   {"D", c.D}, {"B_int", c.B_int}, {"B_void", c.B_void}, {"B_frame", c.B_frame}};
-  const Minkowski m = functionals(c);
-  record.functionals = {{"A", m.A}, {"L", m.L}, {"chi", m.chi}, {"chi4", m.chi4}};
-}
-
-// The vertex count holds the name V, so the volume functional is spelt out.
-void append_counts(const VoxelCounts& c, MorphologyRecord& record) {
-  record.pixels = c.pixels;
-  record.counts = {{"C", c.C},         {"F", c.F},           {"E", c.E},
-                   {"V", c.V},         {"E4", c.E4},         {"V8", c.V8},
-                   {"S_int", c.S_int}, {"S_void", c.S_void}, {"S_frame", c.S_frame}};
-  const Minkowski3 m = functionals(c);
-  record.functionals = {{"volume", m.V}, {"S", m.S}, {"M", m.M}, {"chi", m.chi}, {"chi6", m.chi6}};
-}
-
+/// The map of derived columns in space. What was cut or held is counted as a guard.
 template <int Dim>
-void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
-  const Phase phase(sim.phases, PhaseName::morphology);
+PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Simulation<Dim>& sim,
+                             const PixelGrid<Dim>& pixels) {
   const Scene& scene = sim.scene;
   const Particles<Dim>& particles = sim.particles;
-  const std::size_t fields = scene.morphology.fields.size();
-  std::vector<std::vector<double>> columns(fields);
   std::vector<PixelValues> values;
-  for (std::size_t f = 0; f < fields; ++f) {
-    const MorphologyField& field = scene.morphology.fields[f];
-    sim.ledger.guards.temperature +=
-        derive_field<Dim>(field.name, particles, sim.materials, scene.thermal, columns[f]);
+  for (std::size_t f = 0; f < columns.size(); ++f) {
     double scale = 0.0;
-    for (const double threshold : field.thresholds) scale = std::max(scale, std::abs(threshold));
+    for (const double threshold : scene.morphology.fields[f].thresholds) {
+      scale = std::max(scale, std::abs(threshold));
+    }
     values.push_back({columns[f], scale > 0.0 ? scale : 1.0});
   }
   PixelSources<Dim> sources;
@@ -69,25 +50,42 @@ void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   for (const Material& m : sim.materials) {
     scales.density = std::max(scales.density, initial_density(m));
   }
-  const PixelField<Dim> map = deposit<Dim>(sources, values, scales, *recorder.pixels);
+  PixelField<Dim> map = deposit<Dim>(sources, values, scales, pixels);
   // The counts are those of all ranks.
   if (rank(sim.communicator) == 0) {
     sim.ledger.guards.pixel += map.capped + map.clamped + map.skipped;
   }
+  return map;
+}
+
+template <int Dim>
+void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  const Phase phase(sim.phases, PhaseName::morphology);
+  const Scene& scene = sim.scene;
+  const Particles<Dim>& particles = sim.particles;
+  const std::size_t fields = scene.morphology.fields.size();
+  const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
+  std::vector<std::vector<double>> columns(fields);
+  for (std::size_t f = 0; f < fields; ++f) {
+    sim.ledger.guards.temperature += derive_field<Dim>(scene.morphology.fields[f].name, particles,
+                                                       sim.materials, scene.thermal, columns[f]);
+  }
+  const PixelField<Dim> map =
+      sites
+          ? place_on_lattice<Dim>(particles.id, {columns.begin(), columns.end()}, *recorder.pixels)
+          : map_in_space<Dim>(columns, sim, *recorder.pixels);
+  const Vector<Dim> shift = sites ? Vector<Dim>(Vector<Dim>::Zero()) : grid_shift(sim);
   std::vector<MorphologyRecord> records;
   for (std::size_t f = 0; f < fields; ++f) {
     const MorphologyField& field = scene.morphology.fields[f];
-    MorphologyRecord record;
-    record.field = field.name;
-    record.unit = derived_unit(field.name);
-    record.threshold = field.thresholds;
-    append_counts(count<Dim>(map, f, field.thresholds, sim.communicator), record);
-    records.push_back(std::move(record));
+    records.push_back(measure<Dim>(map, f, field, std::string(derived_unit(field.name)),
+                                   scene.morphology, shift, sim.communicator));
   }
   const std::int64_t number = record_number(sim);
-  write_morphology(recorder.folder + "/" + morphology_name(number),
-                   {number, sim.clock.step, sim.clock.time, sim.scene_text}, records,
-                   sim.communicator);
+  write_morphology(
+      recorder.folder + "/" + morphology_name(number),
+      {number, sim.clock.step, sim.clock.time, sim.scene_text, {{"pixel", scene.morphology.pixel}}},
+      records, sim.communicator);
 }
 
 template <int Dim>

@@ -73,9 +73,9 @@ class RefusedRestart(ProgramTest):
 
     def test_other_thresholds_in_the_same_folder(self):
         other = ("--set", "morphology.thresholds.pressure=[1e9, 6e9]")
-        self.refuse_restart(f"{self.checkpoint} was written with other morphology fields, thresholds or pixel, which "
-                            "cannot go on in the same folder: keep them, or choose another folder with --output", "latest",
-                            *other)
+        self.refuse_restart(f"{self.checkpoint} was written with other morphology fields, thresholds, domains, lattice or "
+                            "pixel, which cannot go on in the same folder: keep them, or choose another folder with "
+                            "--output", "latest", *other)
         self.run_scene("porous.toml", "elsewhere", "--restart", self.checkpoint, *other, "--set", "time.end=10e-9")
 
     def test_existing_folder_of_another_run(self):

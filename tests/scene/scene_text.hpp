@@ -149,6 +149,8 @@ every = 2e-9
 pixel = 5e-6
 fields = ["pressure", "temperature"]
 thresholds = { temperature = { from = 310, to = 320, step = 0.1 }, pressure = [-1e9, 0, 1e9] }
+domains = true
+hot_spots = { temperature = [400, 500] }
 [profile]
 every = 6e-9
 [checkpoint]

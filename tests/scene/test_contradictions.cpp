@@ -204,6 +204,21 @@ TEST(Contradictions, Morphology) {
       "mean \"density\"?");
 }
 
+TEST(Contradictions, HotSpots) {
+  const std::string two =
+      "[morphology]\nevery = 5e-9\nfields = [\"speed\", \"density\"]\n"
+      "thresholds = { speed = [1], density = [2] }\n";
+  EXPECT_EQ(problems(small_scene(two + "hot_spots = { density = [3] }\n")), "");
+  EXPECT_EQ(problems(small_scene(two + "hot_spots = [3]\n")),
+            "s.toml:22:13: morphology.hot_spots: found thresholds of one field, allowed a table by "
+            "field name, because morphology.fields names 2");
+  EXPECT_EQ(problems(small_scene(two + "hot_spots = { densty = [3], speed = [2, 1] }\n")),
+            "s.toml:22:15: morphology.hot_spots.densty: unknown key, allowed speed, density, did "
+            "you mean \"density\"?\n"
+            "s.toml:22:41: morphology.hot_spots.speed: found 1, allowed numbers in ascending "
+            "order, here > 2");
+}
+
 TEST(Contradictions, ThresholdRanges) {
   const std::string speed = "[morphology]\nfields = [\"speed\"]\nthresholds = ";
   EXPECT_EQ(
@@ -231,6 +246,10 @@ TEST(Contradictions, Pixel) {
       "--set morphology.pixel=4e-5: morphology.pixel: found 4e-05 m, allowed whole parts of the "
       "domain, 0.0001 m along x");
   EXPECT_EQ(override_problems("morphology.pixel=1.25e-6"), "");
+  EXPECT_EQ(problems(small_scene("[morphology]\nlattice = \"lagrangian\"\n")), "");
+  EXPECT_EQ(problems(small_scene("[morphology]\nlattice = \"lagrangian\"\npixel = 1e-5\n")),
+            "s.toml:20:9: morphology.pixel: found 1e-05 m, allowed with lattice = \"lagrangian\" "
+            "only the site, domain.cell / sample.particles_per_cell = 5e-06 m");
 }
 
 }  // namespace

@@ -152,6 +152,15 @@ TEST(Scenes, Thresholds) {
   EXPECT_EQ(scene.morphology.fields[1].name, "temperature");
   ASSERT_EQ(scene.morphology.fields[1].thresholds.size(), 101u);
   EXPECT_EQ(scene.morphology.fields[1].thresholds[100], 310.0 + 100 * 0.1);
+  EXPECT_TRUE(scene.morphology.domains);
+  EXPECT_TRUE(scene.morphology.fields[0].hot_spots.empty());
+  EXPECT_EQ(scene.morphology.fields[1].hot_spots, (std::vector<double>{400.0, 500.0}));
+  const Scene sites = parse(small_scene("[morphology]\nlattice = \"lagrangian\"\n"));
+  EXPECT_EQ(sites.morphology.pixel, sites.domain.cell / sites.sample.particles_per_cell);
+  expect_round_trip(sites);
+  const Scene one = parse(small_scene(speed + "[1]\nhot_spots = [2, 3]\n"));
+  EXPECT_FALSE(one.morphology.domains);
+  EXPECT_EQ(one.morphology.fields[0].hot_spots, (std::vector<double>{2.0, 3.0}));
 }
 
 TEST(Scenes, Overrides) {

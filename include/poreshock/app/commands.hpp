@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "poreshock/app/analyze.hpp"
+#include "poreshock/app/compare.hpp"
 #include "poreshock/core/error.hpp"
 
 namespace CLI {
@@ -14,7 +16,7 @@ class App;
 
 namespace poreshock {
 
-enum class CommandKind { run, check, sample, info };
+enum class CommandKind { run, check, sample, analyze, compare, info };
 
 /// What the command line asks for.
 struct Command {
@@ -26,6 +28,8 @@ struct Command {
   double wall_limit = 0.0;  ///< s
   bool force = false;
   bool quiet = false;
+  AnalyzeOptions analyze;
+  CompareOptions compare;
 };
 
 /// Declares all commands and their options. Not collective.

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,17 @@
 #include "poreshock/output/record_stamp.hpp"
 
 namespace poreshock {
+
+/// One quantity of every hot spot, `width` values per spot.
+struct SpotColumn {
+  enum class Kind { numbers, integers };
+  std::string name;
+  std::string unit;
+  Kind kind = Kind::numbers;
+  std::uint64_t width = 1;
+  std::vector<double> numbers{};
+  std::vector<std::int64_t> integers{};
+};
 
 /// Measurements of one field at one time; all curves have one entry per threshold.
 struct MorphologyRecord {
@@ -21,16 +33,34 @@ struct MorphologyRecord {
   std::int64_t pixels = 0;        ///< material pixels
   std::vector<std::pair<std::string, std::vector<std::int64_t>>> counts;
   std::vector<std::pair<std::string, std::vector<double>>> functionals;  ///< in pixel units
+  std::size_t spots = 0;                                                 ///< hot spots listed
+  std::vector<SpotColumn> spot_columns;  ///< `spots` rows each; none when none are asked for
 };
 
 /// File name of a record in its folder: morphology_NNNNNN.h5.
 std::string morphology_name(std::int64_t record);
 
 /// Writes /<field>/{time, step, record, threshold, pixels, counts..., functionals...}, curves as
-/// 1 x thresholds, replacing an older file. Rank 0's arguments count, and rank 0 works; SystemError
-/// on all ranks when it fails. Collective.
+/// 1 x thresholds, and hot spots as /<field>/domains/{record, columns...}, one row per spot,
+/// replacing an older file. The stamp's numbers have the side of a pixel (m) as "pixel". Rank 0's
+/// arguments count, and rank 0 works; SystemError on all ranks when it fails. Collective.
 void write_morphology(const std::string& path, const RecordStamp& stamp,
                       const std::vector<MorphologyRecord>& records, MPI_Comm communicator);
+
+/// Functionals of one field over the records of a run.
+struct MorphologyCurves {
+  std::string unit;                                        ///< of the thresholds
+  double pixel = 0.0;                                      ///< m, side of a pixel
+  std::vector<double> threshold;                           ///< ascending
+  std::vector<double> time;                                ///< s, ascending
+  std::map<std::string, std::vector<double>> functionals;  ///< by name, each times x thresholds
+};
+
+/// Reads all functionals of one field from morphology.h5 of a folder, or from the file `path`
+/// itself, whole on every rank. InputError on all ranks when the file is missing or damaged, or
+/// lacks the field. Collective.
+MorphologyCurves read_morphology(const std::string& path, const std::string& field,
+                                 MPI_Comm communicator);
 
 /// Takes the records from number `first` on out of morphology.h5, which a restarted run is about to
 /// measure again. Without such a file or such records nothing changes; InputError on all ranks when

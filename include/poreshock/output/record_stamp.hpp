@@ -2,6 +2,7 @@
 // What every record of a run says about its time.
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 namespace poreshock {
@@ -12,6 +13,7 @@ struct RecordStamp {
   std::int64_t step = 0;
   double time = 0.0;  ///< s
   std::string scene_text;
+  std::map<std::string, double> numbers{};  ///< further attributes of the file
 };
 
 }  // namespace poreshock

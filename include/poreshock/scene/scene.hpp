@@ -21,6 +21,7 @@ enum class ShapeFunction { linear, gimp, quadratic, cubic };
 enum class VelocityTransfer { pic, flip, apic, fmpm };
 enum class VelocityUpdate { usl, musl };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
+enum class MapLattice { eulerian, lagrangian };
 enum class Precision { double_precision, single_precision };
 
 /// The block of background cells.
@@ -125,14 +126,17 @@ struct Output {
 
 struct MorphologyField {
   std::string name;  ///< temperature, pressure, density, speed, von_mises, plastic_strain
-  std::vector<double> thresholds;  ///< in the unit of the field, ascending
+  std::vector<double> thresholds{};  ///< in the unit of the field, ascending
+  std::vector<double> hot_spots{};   ///< thresholds at which every hot domain is listed
   bool operator==(const MorphologyField&) const = default;
 };
 
 struct Morphology {
   double every = 0.0;  ///< s, 0 = off
-  double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3)
+  double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3); the site if lagrangian
   std::vector<MorphologyField> fields;
+  MapLattice lattice = MapLattice::eulerian;  ///< pixels in space, or sites of the initial lattice
+  bool domains = false;                       ///< count hot and cold domains at all thresholds
   bool operator==(const Morphology&) const = default;
 };
 

@@ -1,0 +1,41 @@
+#pragma once
+// Arrays of numbers in files of others: .npy of NumPy, and datasets of HDF5 files.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace poreshock {
+
+/// An array in a file, first dimension slowest.
+struct StoredArray {
+  std::string file;
+  std::string dataset;  ///< of an HDF5 file; empty for .npy
+  std::vector<std::uint64_t> shape;
+  std::string unit = "1";        ///< of an HDF5 dataset that says so
+  std::string number;            ///< .npy: type of a number, for example "f8"
+  std::uint64_t data_begin = 0;  ///< .npy: first byte of the numbers
+
+  std::uint64_t row_size() const {
+    std::uint64_t result = 1;
+    for (std::size_t axis = 1; axis < shape.size(); ++axis) result *= shape[axis];
+    return result;
+  }
+};
+
+/// Whether a name asks for an array: FILE.npy or FILE:/path/in/HDF5.
+bool names_array(const std::string& name);
+
+/// Finds the array FILE.npy or FILE.h5:/path. Allowed are little-endian floating-point and whole
+/// numbers and flags, rows first (C order); in HDF5 those of our own files. InputError on all ranks
+/// for everything else. Collective.
+StoredArray find_array(const std::string& name, MPI_Comm communicator);
+
+/// Rows first ... first + count - 1 (indices along the first dimension) as doubles; every rank may
+/// ask for others. InputError on all ranks when the file is too short. Collective.
+std::vector<double> read_rows(const StoredArray& array, std::uint64_t first, std::uint64_t count,
+                              MPI_Comm communicator);
+
+}  // namespace poreshock

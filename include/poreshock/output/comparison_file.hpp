@@ -1,0 +1,40 @@
+#pragma once
+// Files of process similarity between runs.
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace poreshock {
+
+/// One run against the reference run, at R thresholds of the reference and K of the run.
+struct ComparedRun {
+  std::string path;
+  double begin = 0.0;                  ///< s, time window
+  double end = 0.0;                    ///< s
+  std::vector<double> threshold;       ///< K, of the run
+  std::vector<double> distance;        ///< R x K, d_p
+  std::vector<double> same_distance;   ///< R, d_p at the reference's threshold; NaN if not measured
+  std::vector<double> best_threshold;  ///< R
+  std::vector<double> best_distance;   ///< R, d_p there
+  std::vector<double> time;            ///< s, of both runs in the window
+  std::vector<double> pattern_distance;  ///< R x times, d at the best threshold
+};
+
+/// A reference run and all runs compared with it.
+struct Comparison {
+  std::string reference;
+  std::string field;
+  std::string unit;                         ///< of thresholds
+  std::vector<double> reference_threshold;  ///< R
+  std::vector<ComparedRun> runs;
+};
+
+/// Writes the comparison: to a name that ends in .h5 all of it, /run_1/..., /run_2/... and
+/// /reference_threshold; to one that ends in .csv a row per run and threshold of the reference
+/// (d_p = 0 means identical). An older file is replaced. InputError on all ranks for other names.
+/// Rank 0 works. Collective.
+void write_comparison(const std::string& path, const Comparison& comparison, MPI_Comm communicator);
+
+}  // namespace poreshock

@@ -1,0 +1,180 @@
+#include "poreshock/app/analyze.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/output/folder.hpp"
+#include "poreshock/solver/measure.hpp"
+#include "stored_map.hpp"
+#include "text.hpp"
+
+namespace poreshock {
+
+namespace {
+
+constexpr std::size_t most_thresholds = 65534;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts = {""};
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+[[noreturn]] void refuse_levels(const std::string& option, const std::string& text) {
+  throw InputError(option + ": found \"" + text +
+                   "\", allowed FROM:TO:STEP or A,B,C: 1 to 65534 numbers in ascending order, in "
+                   "the unit of the field");
+}
+
+/// Thresholds from FROM:TO:STEP or a list.
+std::vector<double> parse_levels(const std::string& option, const std::string& text) {
+  const bool range = text.find(':') != std::string::npos;
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, range ? ':' : ',')) {
+    const auto number = parse_number(part);
+    if (!number) refuse_levels(option, text);
+    if (!range && !numbers.empty() && !(*number > numbers.back())) refuse_levels(option, text);
+    numbers.push_back(*number);
+  }
+  if (!range) return numbers;
+  if (numbers.size() != 3 || !(numbers[2] > 0.0)) refuse_levels(option, text);
+  const double steps = (numbers[1] - numbers[0]) / numbers[2];
+  if (!(steps >= 0.0 && steps < static_cast<double>(most_thresholds))) refuse_levels(option, text);
+  std::vector<double> levels;
+  // The small share takes up the rounding of the division, so that the end itself is not lost.
+  const int count = static_cast<int>(std::floor(steps + 1e-6)) + 1;
+  for (int i = 0; i < count; ++i) levels.push_back(numbers[0] + i * numbers[2]);
+  return levels;
+}
+
+/// What all files share.
+struct Request {
+  const AnalyzeOptions& options;
+  MorphologyField what;
+  Morphology settings;
+  double largest = 0.0;  ///< threshold by size, the scale of the values of particles
+};
+
+Request make_request(const AnalyzeOptions& options) {
+  if (options.thresholds.empty()) {
+    throw InputError("--thresholds: missing, give FROM:TO:STEP or A,B,C in the unit of the field");
+  }
+  Request request{options, {}, {}, 0.0};
+  request.settings.domains = true;
+  request.what.thresholds = parse_levels("--thresholds", options.thresholds);
+  if (!options.hot_spots.empty()) {
+    request.what.hot_spots = parse_levels("--hot-spots", options.hot_spots);
+  }
+  for (const double threshold : request.what.thresholds) {
+    request.largest = std::max(request.largest, std::abs(threshold));
+  }
+  return request;
+}
+
+/// One file, measured.
+struct Measured {
+  RecordStamp stamp;
+  MorphologyRecord record;
+};
+
+template <int Dim>
+Measured measure_map(StoredMap<Dim> stored, Request request, MPI_Comm communicator) {
+  request.what.name = stored.field;
+  return {stored.stamp, measure<Dim>(stored.map, 0, request.what, stored.unit, request.settings,
+                                     stored.shift, communicator)};
+}
+
+/// Arrays are numbered as they come; their time is that number.
+Measured measure_array(const std::string& name, std::int64_t number, const Request& request,
+                       MPI_Comm communicator) {
+  const StoredArray array = find_array(name, communicator);
+  const std::size_t dimension = array.shape.size();
+  const bool empty = array.row_size() == 0 || (dimension > 0 && array.shape[0] == 0);
+  if (dimension < 2 || dimension > 3 || empty) {
+    throw InputError(name + ": found an array of " + std::to_string(dimension) +
+                     (empty ? " dimensions without numbers" : " dimensions") +
+                     ", allowed 2 or 3, the last one x and the first one the shock axis");
+  }
+  const AnalyzeOptions& options = request.options;
+  Measured result =
+      dimension == 2
+          ? measure_map<2>(map_of_array<2>(array, options, communicator), request, communicator)
+          : measure_map<3>(map_of_array<3>(array, options, communicator), request, communicator);
+  result.stamp.record = number;
+  result.stamp.time = static_cast<double>(number);
+  return result;
+}
+
+Measured measure_snapshot(const std::string& path, const Request& request, MPI_Comm communicator) {
+  const AnalyzeOptions& options = request.options;
+  if (!options.mask.empty() || !options.periodic.empty()) {
+    throw InputError(path + ": --mask and --periodic are for arrays; a snapshot knows both");
+  }
+  std::int64_t dimension = 0;
+  {
+    Hdf5File file = Hdf5File::open(path, communicator);
+    const auto kind = file.attribute("kind");
+    if (!kind || *kind != AttributeValue("snapshot")) {
+      throw InputError(path + ": not a snapshot; for an array in an HDF5 file write " + path +
+                       ":/path/of/the/array");
+    }
+    dimension = file.integer("dimension");
+  }
+  const double largest = request.largest;
+  return dimension == 2 ? measure_map<2>(map_of_snapshot<2>(path, options, largest, communicator),
+                                         request, communicator)
+                        : measure_map<3>(map_of_snapshot<3>(path, options, largest, communicator),
+                                         request, communicator);
+}
+
+void print(const std::string& name, const Measured& measured) {
+  const MorphologyRecord& record = measured.record;
+  std::printf("%s: %s, %lld pixels of material\n  %-16s", name.c_str(), record.field.c_str(),
+              static_cast<long long>(record.pixels), ("threshold [" + record.unit + "]").c_str());
+  for (const auto& [key, values] : record.functionals) std::printf(" %-13s", key.c_str());
+  std::printf("\n");
+  for (std::size_t j = 0; j < record.threshold.size(); ++j) {
+    std::printf("  %-16.8g", record.threshold[j]);
+    for (const auto& [key, values] : record.functionals) std::printf(" %-13.6g", values[j]);
+    std::printf("\n");
+  }
+  if (!record.spot_columns.empty()) std::printf("  %zu hot spots listed\n", record.spots);
+}
+
+}  // namespace
+
+void analyze(const AnalyzeOptions& options, MPI_Comm communicator) {
+  const Request request = make_request(options);
+  const bool written = !options.output.empty();
+  if (written) require_output_folder(options.output, options.force, false, communicator);
+  bool prepared = false;
+  std::set<std::int64_t> numbers;
+  for (const std::string& name : options.files) {
+    const auto number = static_cast<std::int64_t>(numbers.size());
+    const Measured measured = names_array(name) ? measure_array(name, number, request, communicator)
+                                                : measure_snapshot(name, request, communicator);
+    if (!numbers.insert(measured.stamp.record).second) {
+      throw InputError(name + ": another of the files has the same record number, " +
+                       std::to_string(measured.stamp.record) + "; analyse one run at a time");
+    }
+    if (rank(communicator) == 0) print(name, measured);
+    if (!written) continue;
+    // Not before the first file has been read: a wrong name costs no earlier result.
+    if (!prepared) prepare_output_folder(options.output, options.force, false, communicator);
+    prepared = true;
+    write_morphology(options.output + "/" + morphology_name(measured.stamp.record), measured.stamp,
+                     {measured.record}, communicator);
+  }
+  if (written) collect_morphology(options.output, communicator);
+}
+
+}  // namespace poreshock

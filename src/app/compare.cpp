@@ -1,0 +1,195 @@
+#include "poreshock/app/compare.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/morphology/similarity.hpp"
+#include "poreshock/output/comparison_file.hpp"
+#include "poreshock/output/morphology_file.hpp"
+#include "text.hpp"
+
+namespace poreshock {
+
+namespace {
+
+std::optional<Window> parse_window(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t colon = text.find(':');
+  const auto begin = parse_number(text.substr(0, colon));
+  const auto end = colon == std::string::npos ? std::nullopt : parse_number(text.substr(colon + 1));
+  if (!begin || !end || !(*begin < *end)) {
+    throw InputError("--window: found \"" + text +
+                     "\", allowed BEGIN:END, two numbers in seconds, the second larger");
+  }
+  return Window{*begin, *end};
+}
+
+/// What was read of one run.
+struct RunData {
+  std::string path;
+  std::string unit;
+  double pixel = 0.0;  ///< m
+  Process process;
+};
+
+/// Names of the functionals that span the space: fraction, lengths, Euler characteristic.
+std::vector<std::string> functional_names(const MorphologyCurves& curves, const std::string& chi,
+                                          const std::string& path) {
+  std::vector<std::string> names = {"A", "L", chi};
+  if (!curves.functionals.contains("A")) names = {"volume", "S", "M", chi};
+  for (const std::string& name : names) {
+    if (curves.functionals.contains(name)) continue;
+    std::string known;
+    for (const auto& [key, values] : curves.functionals) {
+      known.append(known.empty() ? "" : ", ").append(key);
+    }
+    throw InputError(path + ": holds no functional " + name + ", allowed " + known +
+                     (name == "chi_paper" ? "; run with morphology.domains = true" : ""));
+  }
+  return names;
+}
+
+/// Functionals per pixel, or in units of `length`: the k-th one counts pixels to the power -k.
+RunData read_run(const std::string& path, const CompareOptions& options, MPI_Comm communicator) {
+  MorphologyCurves curves = read_morphology(path, options.field, communicator);
+  RunData run{path, curves.unit, curves.pixel, {}};
+  run.process.time = curves.time;
+  run.process.threshold = curves.threshold;
+  const double ratio = options.length > 0.0 ? options.length / curves.pixel : 1.0;
+  double factor = 1.0;
+  for (const std::string& name : functional_names(curves, options.chi, path)) {
+    std::vector<double> values = curves.functionals.at(name);
+    for (double& value : values) value *= factor;
+    run.process.functionals.push_back(std::move(values));
+    factor *= ratio;
+  }
+  return run;
+}
+
+void require_comparable(const RunData& reference, const RunData& run,
+                        const CompareOptions& options) {
+  const std::size_t own = run.process.functionals.size();
+  const std::size_t theirs = reference.process.functionals.size();
+  if (own != theirs) {
+    throw InputError(run.path + " is a run in " + std::to_string(own - 1) + " dimensions, " +
+                     reference.path + " in " + std::to_string(theirs - 1) +
+                     ": their morphology cannot be compared");
+  }
+  if (run.pixel == reference.pixel || options.length > 0.0) return;
+  char text[160];
+  std::snprintf(text, sizeof(text), "%.6g m against %.6g m", run.pixel, reference.pixel);
+  throw InputError(run.path + " has other pixels than " + reference.path + ", " + text +
+                   ", and lengths per pixel cannot be compared: give a common unit of length in "
+                   "metres with --length");
+}
+
+double checked_threshold(const std::string& text, const RunData& reference) {
+  const auto threshold = parse_number(text);
+  const std::vector<double>& measured = reference.process.threshold;
+  if (threshold && measured.front() <= *threshold && *threshold <= measured.back()) {
+    return *threshold;
+  }
+  char allowed[96];
+  std::snprintf(allowed, sizeof(allowed), "a number from %.8g to %.8g %s", measured.front(),
+                measured.back(), reference.unit.c_str());
+  throw InputError("--threshold: found \"" + text + "\", allowed " + allowed + ", what " +
+                   reference.path + " measured");
+}
+
+/// d_p at the threshold of the reference; NaN when the run did not measure it.
+double distance_at_same(const Path& reference, const Process& process, double threshold,
+                        Window window) {
+  const bool measured =
+      process.threshold.front() <= threshold && threshold <= process.threshold.back();
+  return measured ? process_distance(reference, path_at(process, threshold), window)
+                  : std::numeric_limits<double>::quiet_NaN();
+}
+
+ComparedRun compare_run(const RunData& reference, const RunData& run,
+                        const std::vector<double>& thresholds, const std::optional<Window>& asked) {
+  const Window window = asked ? *asked : loading_window(reference.process, run.process);
+  ComparedRun result;
+  result.path = run.path;
+  result.begin = window.begin;
+  result.end = window.end;
+  result.threshold = run.process.threshold;
+  for (const double threshold : thresholds) {
+    const Path path = path_at(reference.process, threshold);
+    const Match match = find_match(path, run.process, window);
+    result.distance.insert(result.distance.end(), match.distance.begin(), match.distance.end());
+    result.same_distance.push_back(distance_at_same(path, run.process, threshold, window));
+    result.best_threshold.push_back(match.best_threshold);
+    result.best_distance.push_back(match.best_distance);
+    const Path d = distances(path, path_at(run.process, match.best_threshold), window);
+    result.time = d.time;
+    for (const auto& point : d.points) result.pattern_distance.push_back(point[0]);
+  }
+  return result;
+}
+
+std::string similarity_text(double distance) {
+  if (std::isnan(distance)) return "not measured";
+  if (distance == 0.0) return "identical";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", similarity(distance));
+  return text;
+}
+
+void print(const Comparison& comparison) {
+  const char* unit = comparison.unit.c_str();
+  std::printf("%s against %s, S_p = 1/d_p\n", comparison.field.c_str(),
+              comparison.reference.c_str());
+  for (const ComparedRun& run : comparison.runs) {
+    std::printf("\n%s, from %.6g ns to %.6g ns\n", run.path.c_str(), run.begin * 1e9,
+                run.end * 1e9);
+    std::printf("  %-18s %-14s %-14s %-18s %-14s %s\n",
+                ("reference [" + comparison.unit + "]").c_str(), "d_p there", "S_p there",
+                ("best [" + comparison.unit + "]").c_str(), "d_p best", "S_p best");
+    bool at_end = false;
+    for (std::size_t r = 0; r < comparison.reference_threshold.size(); ++r) {
+      const double best = run.best_threshold[r];
+      const bool end = best == run.threshold.front() || best == run.threshold.back();
+      at_end = at_end || end;
+      std::printf("  %-18.8g %-14.6g %-14s %-18s %-14.6g %s\n", comparison.reference_threshold[r],
+                  run.same_distance[r], similarity_text(run.same_distance[r]).c_str(),
+                  (std::to_string(best) + (end ? " *" : "")).c_str(), run.best_distance[r],
+                  similarity_text(run.best_distance[r]).c_str());
+    }
+    if (at_end) {
+      std::printf(
+          "  * at the end of the measured thresholds, %.8g ... %.8g %s: the best one may "
+          "lie beyond\n",
+          run.threshold.front(), run.threshold.back(), unit);
+    }
+  }
+}
+
+}  // namespace
+
+void compare(const CompareOptions& options, MPI_Comm communicator) {
+  if (options.runs.size() < 2) {
+    throw InputError("compare: found " + std::to_string(options.runs.size()) +
+                     " run, allowed two or more; the first is the reference");
+  }
+  if (!(options.length >= 0.0)) throw InputError("--length: allowed a number > 0 (m)");
+  const std::optional<Window> window = parse_window(options.window);
+  const RunData reference = read_run(options.runs[0], options, communicator);
+  Comparison comparison{
+      options.runs[0], options.field, reference.unit, reference.process.threshold, {}};
+  if (!options.threshold.empty()) {
+    comparison.reference_threshold = {checked_threshold(options.threshold, reference)};
+  }
+  for (std::size_t r = 1; r < options.runs.size(); ++r) {
+    const RunData run = read_run(options.runs[r], options, communicator);
+    require_comparable(reference, run, options);
+    comparison.runs.push_back(compare_run(reference, run, comparison.reference_threshold, window));
+  }
+  if (rank(communicator) == 0) print(comparison);
+  if (!options.output.empty()) write_comparison(options.output, comparison, communicator);
+}
+
+}  // namespace poreshock

@@ -1,0 +1,39 @@
+#pragma once
+// Maps from files. Private to the app.
+
+#include <mpi.h>
+
+#include <string>
+
+#include "poreshock/app/analyze.hpp"
+#include "poreshock/core/tensor.hpp"
+#include "poreshock/morphology/pixel_map.hpp"
+#include "poreshock/output/array_file.hpp"
+#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/output/morphology_file.hpp"
+
+namespace poreshock {
+
+/// A map with what is known about it.
+template <int Dim>
+struct StoredMap {
+  PixelField<Dim> map;
+  std::string field;
+  std::string unit;
+  RecordStamp stamp;  ///< of a snapshot; of an array all zero
+  Vector<Dim> shift = Vector<Dim>::Zero();
+};
+
+/// The map of an array: the last dimension is x, the first the shock axis. Without a mask NaN is
+/// void. Throws InputError when shapes do not fit. Collective.
+template <int Dim>
+StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& options,
+                            MPI_Comm communicator);
+
+/// The map of a snapshot, made from its particles as the run itself does; `largest` is the largest
+/// threshold by size. Throws InputError when it lacks a dataset. Collective.
+template <int Dim>
+StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& options,
+                               double largest, MPI_Comm communicator);
+
+}  // namespace poreshock

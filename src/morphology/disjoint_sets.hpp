@@ -1,0 +1,83 @@
+#pragma once
+// Disjoint sets of nodes on a map with periodic sides. Private to the layer.
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace poreshock {
+
+/// How often a path crosses the periodic sides, upwards counted positive: x, y.
+struct Crossings {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  bool operator==(const Crossings&) const = default;
+};
+
+inline Crossings operator+(Crossings a, Crossings b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Crossings operator-(Crossings a, Crossings b) {
+  return {a.x - b.x, a.y - b.y};
+}
+
+/// Union-find, by size and with path halving, in which every node knows its crossings from the root
+/// of its set (Tarjan, J. ACM 22 (1975) 215). A node that can be reached with two different numbers
+/// of crossings lies on a path that winds.
+class DisjointSets {
+ public:
+  struct Place {
+    std::uint32_t root;
+    Crossings from_root;
+  };
+  /// What joining two nodes did.
+  struct Joined {
+    std::uint32_t root;      ///< of the joint set
+    std::uint32_t absorbed;  ///< former root of the other set; `root` when it was one set before
+    Crossings winding;       ///< not zero: this path winds, in one set
+    Crossings shift;         ///< of the absorbed root from `root`
+  };
+
+  explicit DisjointSets(std::size_t nodes) : parent_(nodes), size_(nodes, 1), shift_(nodes) {
+    for (std::size_t i = 0; i < nodes; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  Place find(std::uint32_t node) {
+    Crossings total;
+    while (parent_[node] != node) {
+      const std::uint32_t above = parent_[node];
+      shift_[node] = shift_[node] + shift_[above];  // zero for a root
+      parent_[node] = parent_[above];
+      total = total + shift_[node];
+      node = parent_[node];
+    }
+    return {node, total};
+  }
+
+  /// Joins the sets of a and b, which is reached from a with `step` crossings.
+  Joined join(std::uint32_t a, std::uint32_t b, Crossings step) {
+    const Place at_a = find(a);
+    const Place at_b = find(b);
+    const Crossings apart = at_a.from_root + step - at_b.from_root;
+    if (at_a.root == at_b.root) return {at_a.root, at_a.root, apart, {}};
+    std::uint32_t root = at_a.root;
+    std::uint32_t absorbed = at_b.root;
+    Crossings shift = apart;
+    if (size_[root] < size_[absorbed]) {
+      std::swap(root, absorbed);
+      shift = Crossings{} - shift;
+    }
+    parent_[absorbed] = root;
+    shift_[absorbed] = shift;
+    size_[root] += size_[absorbed];
+    return {root, absorbed, {}, shift};
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint32_t> size_;
+  std::vector<Crossings> shift_;
+};
+
+}  // namespace poreshock

@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "label_runs.hpp"
+#include "poreshock/core/fixed_point.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/morphology/domains.hpp"
+#include "slab.hpp"
+
+namespace poreshock {
+namespace {
+
+/// No finite value of a map has more quanta; 2^31 pixels of so many fit 64 bits.
+constexpr std::int64_t most_quanta = std::int64_t{1} << 32;
+
+/// What is known of a domain or of a part of it. Coordinates run on across periodic sides, so that
+/// they may lie outside the map; sums are exact integers.
+struct Part {
+  std::int64_t pixels = 0;
+  std::int64_t value_sum = 0;  ///< in quanta
+  double peak = -std::numeric_limits<double>::infinity();
+  std::array<std::int64_t, 3> sum{};  ///< of twice the pixel centres
+  std::array<std::int64_t, 3> low{};
+  std::array<std::int64_t, 3> high{};
+  std::array<std::uint8_t, 2> winds{};
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+};
+
+/// Sizes of the whole map: nx, ny, and the first layer of this slab.
+struct Frame {
+  std::int64_t nx = 0;
+  std::int64_t ny = 0;
+  std::int64_t first_layer = 0;
+};
+
+/// Adds `part`, displaced by whole maps, to `domain`.
+void add(const Part& part, Crossings at, const Frame& frame, Part& domain) {
+  domain.winds[0] |= part.winds[0];
+  domain.winds[1] |= part.winds[1];
+  if (part.pixels == 0) return;
+  const std::array<std::int64_t, 3> shift = {at.x * frame.nx, at.y * frame.ny, 0};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t low = part.low[axis] + shift[axis];
+    const std::int64_t high = part.high[axis] + shift[axis];
+    domain.low[axis] = domain.pixels == 0 ? low : std::min(domain.low[axis], low);
+    domain.high[axis] = domain.pixels == 0 ? high : std::max(domain.high[axis], high);
+    domain.sum[axis] += part.sum[axis] + 2 * shift[axis] * part.pixels;
+  }
+  domain.pixels += part.pixels;
+  domain.value_sum += part.value_sum;
+  domain.peak = part.peak > domain.peak ? part.peak : domain.peak;
+  domain.first = std::min(domain.first, part.first);
+}
+
+/// One run as a part of a domain.
+Part part_of(const Run& run, std::int64_t y, std::int64_t z, const double* values,
+             double inverse_quantum, const Frame& frame) {
+  Part part;
+  part.pixels = run.last - run.first + 1;
+  for (std::int32_t x = run.first; x <= run.last; ++x) {
+    // An infinite value counts as twice the largest finite one.
+    part.value_sum += std::clamp(quantise(values[x], inverse_quantum), -most_quanta, most_quanta);
+    part.peak = values[x] > part.peak ? values[x] : part.peak;
+  }
+  part.low = {run.first, y, z};
+  part.high = {run.last, y, z};
+  part.sum = {part.pixels * (std::int64_t{run.first} + run.last + 1), (2 * y + 1) * part.pixels,
+              (2 * z + 1) * part.pixels};
+  part.first = (z * frame.ny + y) * frame.nx + run.first;
+  return part;
+}
+
+/// A run on the border between two slabs, which both of them have: its place there, the part it
+/// belongs to, and its crossings from the origin of that part.
+struct BorderRun {
+  std::int64_t place;
+  std::int64_t part;
+  Crossings at;
+};
+
+/// Domains of a slab: complete ones, and parts that reach the border to another slab.
+struct SlabDomains {
+  std::vector<Part> complete;
+  std::vector<Part> parts;
+  std::vector<BorderRun> border;
+};
+
+/// Number of the set of each run, sets in the order of their roots.
+std::vector<std::uint32_t> number_sets(Labels& labels, std::size_t runs, std::size_t& count) {
+  std::vector<std::uint32_t> number(runs);
+  count = 0;
+  for (std::size_t r = 0; r < runs; ++r) {
+    if (labels.sets.find(static_cast<std::uint32_t>(r)).root == r) {
+      number[r] = static_cast<std::uint32_t>(count++);
+    }
+  }
+  for (std::size_t r = 0; r < runs; ++r) {
+    number[r] = number[labels.sets.find(static_cast<std::uint32_t>(r)).root];
+  }
+  return number;
+}
+
+/// Adds every run to its set, and lists the runs on borders.
+void add_runs(const Slab& slab, const Runs& runs, std::span<const double> values,
+              double inverse_quantum, const Frame& frame, std::span<const std::uint32_t> number,
+              Labels& labels, std::vector<Part>& domains, std::vector<BorderRun>& border) {
+  const auto ny = static_cast<std::size_t>(slab.ny);
+  for (std::size_t row = 0; row + 1 < runs.starts.size(); ++row) {
+    const auto y = static_cast<std::int64_t>(row % ny);
+    const auto z = static_cast<std::int64_t>(row / ny);
+    const bool low_border = z == 0 && !slab.first;
+    const bool high_border = z >= slab.layers;
+    for (std::size_t r = runs.starts[row]; r < runs.starts[row + 1]; ++r) {
+      const Run& run = runs.runs[r];
+      const Crossings at = labels.sets.find(static_cast<std::uint32_t>(r)).from_root;
+      if (!high_border) {
+        const double* row_values = &values[row * static_cast<std::size_t>(slab.nx)];
+        add(part_of(run, y, z + frame.first_layer, row_values, inverse_quantum, frame), at, frame,
+            domains[number[r]]);
+      }
+      if (!low_border && !high_border) continue;
+      const std::int64_t layer = z + frame.first_layer;
+      border.push_back(
+          {(layer * frame.ny + y) * frame.nx + run.first, std::int64_t{number[r]}, at});
+    }
+  }
+}
+
+SlabDomains collect(const Slab& slab, const Runs& runs, std::span<const double> values,
+                    double inverse_quantum, const Frame& frame, Labels& labels) {
+  std::size_t count = 0;
+  const std::vector<std::uint32_t> number = number_sets(labels, runs.runs.size(), count);
+  std::vector<Part> domains(count);
+  SlabDomains result;
+  add_runs(slab, runs, values, inverse_quantum, frame, number, labels, domains, result.border);
+  for (std::size_t r = 0; r < runs.runs.size(); ++r) {
+    if (labels.sets.find(static_cast<std::uint32_t>(r)).root == r) {
+      domains[number[r]].winds = labels.winds[r];
+    }
+  }
+  std::vector<std::int64_t> open(count, -1);
+  for (BorderRun& run : result.border) {
+    std::int64_t& part = open[static_cast<std::size_t>(run.part)];
+    if (part < 0) {
+      part = static_cast<std::int64_t>(result.parts.size());
+      result.parts.push_back(domains[static_cast<std::size_t>(run.part)]);
+    }
+    run.part = part;
+  }
+  for (std::size_t d = 0; d < count; ++d) {
+    if (open[d] < 0) result.complete.push_back(domains[d]);
+  }
+  return result;
+}
+
+/// Joins the parts of all slabs along the runs that two slabs share, on rank 0.
+std::vector<Part> join_parts(const std::vector<Part>& parts, std::vector<BorderRun> border,
+                             const Frame& frame) {
+  std::stable_sort(border.begin(), border.end(),
+                   [](const BorderRun& a, const BorderRun& b) { return a.place < b.place; });
+  Labels labels(parts.size());
+  for (std::size_t i = 0; i + 1 < border.size(); ++i) {
+    const BorderRun& a = border[i];
+    const BorderRun& b = border[i + 1];
+    if (a.place != b.place) continue;
+    join(static_cast<std::size_t>(a.part), static_cast<std::size_t>(b.part), a.at - b.at, labels);
+  }
+  std::vector<Part> domains(parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto place = labels.sets.find(static_cast<std::uint32_t>(p));
+    add(parts[p], place.from_root, frame, domains[place.root]);
+  }
+  std::vector<Part> result;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (labels.sets.find(static_cast<std::uint32_t>(p)).root != p) continue;
+    domains[p].winds[0] |= labels.winds[p][0];
+    domains[p].winds[1] |= labels.winds[p][1];
+    result.push_back(domains[p]);
+  }
+  return result;
+}
+
+/// Sum of the numbers of the ranks below this one. Collective.
+std::int64_t of_lower_ranks(std::int64_t count, MPI_Comm communicator) {
+  std::int64_t before = 0;
+  check_mpi(MPI_Exscan(&count, &before, 1, MPI_INT64_T, MPI_SUM, communicator), "MPI_Exscan");
+  return rank(communicator) == 0 ? 0 : before;
+}
+
+/// All domains of the map, on rank 0.
+std::vector<Part> gather_domains(SlabDomains slab, const Frame& frame, MPI_Comm communicator) {
+  std::vector<int> starts;
+  std::vector<Part> domains = gather(slab.complete, starts, communicator);
+  // Parts are numbered over all ranks.
+  const std::int64_t first =
+      of_lower_ranks(static_cast<std::int64_t>(slab.parts.size()), communicator);
+  for (BorderRun& run : slab.border) run.part += first;
+  const std::vector<Part> parts = gather(slab.parts, starts, communicator);
+  std::vector<BorderRun> border = gather(slab.border, starts, communicator);
+  const std::vector<Part> joined = join_parts(parts, std::move(border), frame);
+  domains.insert(domains.end(), joined.begin(), joined.end());
+  return domains;
+}
+
+/// Quantum of the sums of values: 2^-31 of the largest value of the map, or the power of two below.
+double find_inverse_quantum(const Slab& slab, std::span<const double> values,
+                            std::span<const std::uint8_t> solid, MPI_Comm communicator) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < slab.layer_size() * static_cast<std::size_t>(slab.layers); ++i) {
+    const double size = std::abs(values[i]);
+    if (solid[i] != 0 && std::isfinite(size)) most = size > most ? size : most;
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, communicator),
+            "MPI_Allreduce");
+  if (!(most > 0.0)) return 1.0;
+  // Subnormal maps would need an infinite factor.
+  return 0x1p31 / power_of_two_below(std::max(most, 1e-290));
+}
+
+/// A coordinate folded into 0 ... size - 1.
+std::int64_t fold(std::int64_t coordinate, std::int64_t size) {
+  return ((coordinate % size) + size) % size;
+}
+
+template <int Dim>
+HotSpot<Dim> hot_spot(const Part& part, const PixelField<Dim>& map, double inverse_quantum) {
+  HotSpot<Dim> spot;
+  spot.pixels = part.pixels;
+  spot.peak = part.peak;
+  const auto count = static_cast<double>(part.pixels);
+  spot.mean = static_cast<double>(part.value_sum) / inverse_quantum / count;
+  spot.first = part.first;
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    // In 2-D the parts keep the shock axis where 3-D keeps z.
+    const std::size_t at = axis + 1 == Dim ? 2 : axis;
+    const auto pixels = static_cast<std::int64_t>(map.layout.pixels[axis]);
+    spot.low[axis] = part.low[at];
+    spot.size[axis] = part.high[at] - part.low[at] + 1;
+    std::int64_t sum = part.sum[at];
+    if (axis + 1 < Dim && map.layout.periodic[axis]) {
+      spot.winds[axis] = part.winds[axis] != 0;
+      spot.low[axis] = spot.winds[axis] ? 0 : fold(spot.low[axis], pixels);
+      spot.size[axis] = spot.winds[axis] ? pixels : spot.size[axis];
+      sum = fold(sum, 2 * pixels * part.pixels);
+    }
+    const bool none = axis + 1 < Dim && spot.winds[axis];
+    spot.centroid[axis] =
+        none ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(sum) / (2.0 * count);
+  }
+  return spot;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<HotSpot<Dim>> find_hot_spots(const PixelField<Dim>& map, std::size_t field,
+                                         double threshold, Joining joining, MPI_Comm communicator) {
+  const Slab slab = slab_of(map);
+  const std::span<const double> values = map.values.at(field);
+  const Frame frame{slab.nx, slab.ny, of_lower_ranks(slab.layers, communicator)};
+  const double inverse_quantum = find_inverse_quantum(slab, values, map.solid, communicator);
+  const Runs runs = find_runs(slab, values, map.solid, threshold);
+  Labels labels(runs.runs.size());
+  label(slab, runs, joining == Joining::corners, labels);
+  std::vector<Part> domains = gather_domains(
+      collect(slab, runs, values, inverse_quantum, frame, labels), frame, communicator);
+  std::sort(domains.begin(), domains.end(), [](const Part& a, const Part& b) {
+    return a.pixels != b.pixels ? a.pixels > b.pixels : a.first < b.first;
+  });
+  std::vector<HotSpot<Dim>> spots;
+  for (const Part& part : domains) spots.push_back(hot_spot(part, map, inverse_quantum));
+  return spots;
+}
+
+template <int Dim>
+std::vector<std::int64_t> size_distribution(const std::vector<HotSpot<Dim>>& spots) {
+  std::vector<std::int64_t> result;
+  for (const HotSpot<Dim>& spot : spots) {
+    const auto bin =
+        static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(spot.pixels))) - 1;
+    if (result.size() <= bin) result.resize(bin + 1, 0);
+    ++result[bin];
+  }
+  return result;
+}
+
+template std::vector<HotSpot<2>> find_hot_spots<2>(const PixelField<2>&, std::size_t, double,
+                                                   Joining, MPI_Comm);
+template std::vector<HotSpot<3>> find_hot_spots<3>(const PixelField<3>&, std::size_t, double,
+                                                   Joining, MPI_Comm);
+template std::vector<std::int64_t> size_distribution<2>(const std::vector<HotSpot<2>>&);
+template std::vector<std::int64_t> size_distribution<3>(const std::vector<HotSpot<3>>&);
+
+}  // namespace poreshock

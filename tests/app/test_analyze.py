@@ -1,0 +1,198 @@
+"""Morphology of stored fields: snapshots as the run measured them, arrays against plain counting."""
+import unittest
+
+import h5py
+import numpy
+
+import program
+from program import POROUS
+
+LEVELS = numpy.arange(1, 8) / 8
+
+
+def random_image(shape, seed):
+    """Noise in sixteenths, so that thresholds are met exactly."""
+    return numpy.random.default_rng(seed).integers(0, 17, shape) / 16
+
+
+def domains(white, around, corners):
+    """Number of domains of the pixels in `white`, by flood fill; `around`: x wraps."""
+    rows, columns = white.shape
+    left = white.copy()
+    number = 0
+    for start in zip(*numpy.nonzero(white)):
+        if not left[start]:
+            continue
+        number += 1
+        left[start] = False
+        stack = [start]
+        while stack:
+            z, x = stack.pop()
+            for dz in (-1, 0, 1):
+                for dx in (-1, 0, 1):
+                    if dz and dx and not corners:
+                        continue
+                    to = (z + dz, (x + dx) % columns if around else x + dx)
+                    if 0 <= to[0] < rows and 0 <= to[1] < columns and left[to]:
+                        left[to] = False
+                        stack.append(to)
+    return number
+
+
+def plain_counts(image, solid, around):
+    """N, and per threshold: A, L and chi = V - E + F of white pixels, and n_W, n_B."""
+    result = {"A": [], "L": [], "chi": [], "n_W": [], "n_B": []}
+    for level in LEVELS:
+        white = (image >= level) & solid
+        black = ~white & solid
+        padded = numpy.pad(white, ((1, 1), (0, 0)) if around else 1)
+        right = numpy.roll(padded, -1, axis=1)
+        columns = slice(None) if around else slice(0, -1)
+        # An edge (vertex) is white when one of its two (four) pixels is.
+        edges = (padded | right)[1:-1, columns].sum() + (padded[1:] | padded[:-1])[:, slice(None) if around
+                                                                                   else slice(1, -1)].sum()
+        pairs = (padded | right)[:, columns]
+        vertices = (pairs[1:] | pairs[:-1]).sum()
+        both = numpy.roll(solid, -1, axis=1) & solid & (numpy.roll(white, -1, axis=1) != white)
+        length = both[:, slice(None) if around else slice(0, -1)].sum()
+        length += (solid[1:] & solid[:-1] & (white[1:] != white[:-1])).sum()
+        result["A"].append(white.sum() / solid.sum())
+        result["L"].append(length / solid.sum())
+        result["chi"].append((int(vertices) - int(edges) + int(white.sum())) / solid.sum())
+        result["n_W"].append(domains(white, around, True))
+        result["n_B"].append(domains(black, around, False))
+    return result
+
+
+class Snapshots(program.ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS)
+        cls.run_scene("porous.toml", "run", "--set", "morphology.domains=true",
+                      "--set", "morphology.hot_spots={temperature=[600,800]}")
+        cls.snapshots = sorted(path.relative_to(cls.folder) for path in (cls.folder / "run").glob("snapshot_*.h5"))
+
+    def test_as_the_run_measured_them(self):
+        for ranks in (1, 3):
+            self.succeed("analyze", *self.snapshots, "--thresholds", "310:900:10", "--hot-spots", "600,800",
+                         "--output", f"after{ranks}", ranks=ranks)
+            after = program.datasets(self.folder / f"after{ranks}/morphology.h5")
+            during = program.datasets(self.folder / "run/morphology.h5")
+            records = during["temperature/record"]
+            stored = numpy.isin(records, after["temperature/record"])
+            self.assertEqual(stored.sum(), 3)
+            spots = numpy.isin(during["temperature/domains/record"], after["temperature/record"])
+            self.assertGreater(spots.sum(), 0)
+            compared = [name for name in during if name.startswith("temperature/")]
+            self.assertEqual(compared, list(after))
+            for name in compared:
+                expected = during[name]
+                if "domains" in name:
+                    expected = expected[spots]
+                elif not name.endswith("threshold"):
+                    expected = expected[stored]
+                self.assertTrue(program.same_bits(expected, after[name]), name)
+
+    def test_every_field(self):
+        for field, levels in (("pressure", "1e9,5e9"), ("density", "2800:3400:100"), ("speed", "100,1000"),
+                              ("von_mises", "1e8,2e8"), ("plastic_strain", "0.1,0.5")):
+            output = self.succeed("analyze", self.snapshots[-1], "--field", field, "--thresholds", levels).output
+            self.assertIn(f": {field}, ", output)
+        self.run_scene("porous.toml", "fields", "--set", "time.end=5e-9", "--set",
+                       "morphology.fields=['von_mises','speed']", "--set",
+                       "morphology.thresholds={von_mises=[1e8,1.2e8,1.5e8],speed=[100,700,1200]}")
+        during = program.datasets(self.folder / "fields/morphology.h5")
+        for field, levels in (("von_mises", "1e8,1.2e8,1.5e8"), ("speed", "100,700,1200")):
+            self.succeed("analyze", "fields/snapshot_000002.h5", "--field", field, "--thresholds", levels,
+                         "--output", f"after_{field}")
+            after = program.datasets(self.folder / f"after_{field}/morphology.h5")
+            self.assertTrue(0 < after[f"{field}/A"][0, 1] < 1)
+            numpy.testing.assert_array_equal(after[f"{field}/F"][0], during[f"{field}/F"][-1])
+
+    def test_refusals(self):
+        self.refuse("run/history.csv: not an HDF5 file, or its beginning is damaged",
+                    "analyze", "run/history.csv", "--thresholds", "1,2")
+        self.refuse("run/morphology.h5: not a snapshot; for an array in an HDF5 file write "
+                    "run/morphology.h5:/path/of/the/array", "analyze", "run/morphology.h5", "--thresholds", "1,2", ranks=2)
+        self.refuse('--thresholds: found "3,2", allowed FROM:TO:STEP or A,B,C: 1 to 65534 numbers in ascending order, in '
+                    "the unit of the field", "analyze", self.snapshots[0], "--thresholds", "3,2")
+        self.refuse('unknown field "heat": allowed are temperature, pressure, density, speed, von_mises, plastic_strain',
+                    "analyze", self.snapshots[0], "--thresholds", "3", "--field", "heat")
+        self.refuse(f"{self.snapshots[0]}: another of the files has the same record number, 0; analyse one run at a time",
+                    "analyze", self.snapshots[0], self.snapshots[0], "--thresholds", "310")
+
+
+class Arrays(program.ProgramTest):
+    def check(self, name, image, solid, around, *options, ranks):
+        output = f"out_{name.replace('/', '_').replace(':', '_')}_{ranks}_{around}_{len(options)}"
+        self.succeed("analyze", name, "--thresholds", "0.125:0.875:0.125", "--output", output, *options,
+                     *(["--periodic", "x"] if around else []), ranks=ranks)
+        found = program.datasets(self.folder / output / "morphology.h5")
+        found = {key.split("/", 1)[1]: values for key, values in found.items()}
+        self.assertEqual(found["pixels"][0], solid.sum())
+        for key, values in plain_counts(image, solid, around).items():
+            numpy.testing.assert_array_equal(found[key][0], values, err_msg=f"{key} of {name}")
+
+    def test_noise_as_counted_plainly(self):
+        image = random_image((23, 31), 1)
+        numpy.save(self.folder / "noise.npy", image)
+        with h5py.File(self.folder / "noise.h5", "w") as file:
+            file["deep/noise"] = image
+        everywhere = numpy.ones(image.shape, bool)
+        for ranks in (1, 4):
+            for around in (False, True):
+                self.check("noise.npy", image, everywhere, around, ranks=ranks)
+                self.check("noise.h5:/deep/noise", image, everywhere, around, ranks=ranks)
+
+    def test_voids_by_mask_and_by_nan(self):
+        image = random_image((20, 17), 2)
+        solid = random_image(image.shape, 3) > 0.2
+        numpy.save(self.folder / "image.npy", image)
+        numpy.save(self.folder / "mask.npy", solid)
+        numpy.save(self.folder / "nan.npy", numpy.where(solid, image, numpy.nan))
+        for ranks in (1, 3):
+            self.check("image.npy", image, solid, True, "--mask", "mask.npy", ranks=ranks)
+            self.check("nan.npy", image, solid, True, ranks=ranks)
+
+    def test_number_types(self):
+        image = numpy.random.default_rng(4).integers(0, 100, (12, 9))
+        for kind in ("f8", "f4", "i8", "i4", "i2", "i1", "u8", "u4", "u2", "u1"):
+            numpy.save(self.folder / f"{kind}.npy", image.astype(kind))
+            self.succeed("analyze", f"{kind}.npy", "--thresholds", "50,80", "--output", kind)
+            found = program.datasets(self.folder / kind / "morphology.h5")
+            numpy.testing.assert_array_equal(found["array/F"][0], [(image >= 50).sum(), (image >= 80).sum()])
+
+    def test_voxels(self):
+        image = random_image((9, 7, 8), 5)
+        numpy.save(self.folder / "voxels.npy", image)
+        for ranks in (1, 2):
+            self.succeed("analyze", "voxels.npy", "--thresholds", "0.5,0.8", "--periodic", "x,y", "--output", f"vox{ranks}",
+                         "--field", "noise", "--hot-spots", "0.8", "--pixel", "2e-6", ranks=ranks)
+        self.assert_same_datasets("vox1/morphology.h5", "vox2/morphology.h5")
+        found = program.datasets(self.folder / "vox1/morphology.h5")
+        numpy.testing.assert_array_equal(found["noise/C"][0], [(image >= 0.5).sum(), (image >= 0.8).sum()])
+        self.assertEqual(found["noise/domains/pixels"].sum(), (image >= 0.8).sum())
+        self.assertEqual(len(found["noise/domains/pixels"]), found["noise/n_W"][0, 1])
+        numpy.testing.assert_allclose(found["noise/domains/volume"], found["noise/domains/pixels"] * 8e-18, rtol=1e-12)
+
+    def test_refusals(self):
+        numpy.save(self.folder / "line.npy", numpy.ones(5))
+        numpy.save(self.folder / "columns.npy", numpy.asfortranarray(random_image((4, 5), 6)))
+        numpy.save(self.folder / "good.npy", random_image((4, 5), 7))
+        numpy.save(self.folder / "other.npy", random_image((5, 4), 7))
+        whole = (self.folder / "good.npy").read_bytes()
+        (self.folder / "cut.npy").write_bytes(whole[:-1])
+        levels = ("--thresholds", "0.5")
+        self.refuse("line.npy: found an array of 1 dimensions, allowed 2 or 3, the last one x and the first one the shock "
+                    "axis", "analyze", "line.npy", *levels)
+        self.assertIn("columns first; allowed are little-endian", self.message(2, "analyze", "columns.npy", *levels))
+        self.refuse("cut.npy: truncated, it is shorter than its header says", "analyze", "cut.npy", *levels, ranks=2)
+        self.refuse("none.npy: not found", "analyze", "none.npy", *levels, ranks=2)
+        self.refuse("--mask: other.npy has another shape than good.npy", "analyze", "good.npy", *levels, "--mask", "other.npy")
+        self.refuse('--periodic: found "y", allowed x for a map of two dimensions',
+                    "analyze", "good.npy", *levels, "--periodic", "y")
+
+
+if __name__ == "__main__":
+    unittest.main()

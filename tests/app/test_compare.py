@@ -1,0 +1,109 @@
+"""Similarity of runs: the command against eqs 16 to 18 worked out from the stored curves."""
+import unittest
+
+import h5py
+import numpy
+
+import program
+from program import POROUS
+
+NAMES = ("A", "L", "chi")
+
+
+def curves(path, names=NAMES):
+    """Times, thresholds, and functionals as times x thresholds x names."""
+    data = program.datasets(path)
+    values = numpy.stack([data[f"temperature/{name}"] for name in names], axis=-1)
+    return data["temperature/time"], data["temperature/threshold"], values
+
+
+def process_distance(time, a, b, begin, end):
+    """Trapezoidal rule for records at the same times."""
+    inside = (time >= begin - 1e-15) & (time <= end + 1e-15)
+    distance = numpy.sqrt(((a - b)[inside] ** 2).sum(axis=-1))
+    return numpy.trapz(distance, time[inside]) / (end - begin)
+
+
+class Compare(program.ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS)
+        for speed in (1300, 1500):
+            cls.run_scene("porous.toml", f"v{speed}", "--set", f"loading.velocity={speed}",
+                          "--set", "morphology.domains=true")
+        cls.write("coarse.toml", POROUS)
+        cls.run_scene("coarse.toml", "coarse", "--set", "morphology.pixel=20e-6", "--set", "time.end=10e-9")
+
+    def test_every_threshold_as_the_equations_say(self):
+        self.succeed("compare", "v1500", "v1300", "--output", "all.h5")
+        time, threshold, slow = curves(self.folder / "v1300/morphology.h5")
+        _, _, fast = curves(self.folder / "v1500/morphology.h5")
+        found = program.datasets(self.folder / "all.h5")
+        numpy.testing.assert_array_equal(found["reference_threshold"], threshold)
+        numpy.testing.assert_array_equal(found["run_1/threshold"], threshold)
+        # The run is still being loaded when it ends.
+        expected = [[process_distance(time, fast[:, r], slow[:, k], time[0], time[-1])
+                     for k in range(len(threshold))] for r in range(len(threshold))]
+        numpy.testing.assert_allclose(found["run_1/d_p"], expected, rtol=1e-12, atol=1e-15)
+        numpy.testing.assert_allclose(found["run_1/d_p_same"], numpy.diag(expected), rtol=1e-12, atol=1e-15)
+        self.assertTrue((found["run_1/d_p_best"] <= numpy.min(expected, axis=1) * (1 + 1e-12)).all())
+        nearest = threshold[numpy.argmin(expected, axis=1)]
+        self.assertTrue((abs(found["run_1/best_threshold"] - nearest) <= 10.0).all())
+        # A slower impact heats less: its matching threshold lies lower.
+        middle = slice(5, 40)
+        self.assertTrue((found["run_1/best_threshold"][middle] < threshold[middle]).all())
+        with h5py.File(self.folder / "all.h5") as file:
+            self.assertEqual(file.attrs["reference"], "v1500")
+            self.assertEqual(file.attrs["run_1"], "v1300")
+            self.assertEqual(file["run_1/time"].attrs["unit"], "s")
+            integral = numpy.trapz(file["run_1/d"][...], file["run_1/time"][...], axis=1)
+        numpy.testing.assert_allclose(integral / (time[-1] - time[0]), found["run_1/d_p_best"], rtol=1e-10, atol=1e-15)
+
+    def test_window_threshold_and_chi_of_the_paper(self):
+        output = self.succeed("compare", "v1500", "v1300", "v1500", "--threshold", "500", "--window", "5e-9:15e-9", "--chi",
+                              "chi_paper", "--output", "one.csv").output
+        names = ("A", "L", "chi_paper")
+        time, threshold, slow = curves(self.folder / "v1300/morphology.h5", names)
+        _, _, fast = curves(self.folder / "v1500/morphology.h5", names)
+        at = list(threshold).index(500.0)
+        lines = (self.folder / "one.csv").read_text().splitlines()
+        self.assertEqual(lines[0], "run,reference_threshold [K],begin [s],end [s],d_p_same [1],best_threshold [K],"
+                                   "d_p_best [1]")
+        name, *numbers = lines[1].split(",")
+        self.assertEqual(name, '"v1300"')
+        reference, begin, end, same, _, best = map(float, numbers)
+        self.assertEqual((reference, begin, end), (500.0, 5e-9, 15e-9))
+        expected = process_distance(time, fast[:, at], slow[:, at], 5e-9, 15e-9)
+        self.assertAlmostEqual(same, expected, delta=1e-9 * expected)
+        self.assertLess(best, same)
+        # The reference against itself: no distance at all, and the table says so.
+        self.assertEqual(lines[2].split(",")[4:], ["0", "500", "0"])
+        self.assertEqual(output.count("identical"), 2)
+
+    def test_other_pixels_need_a_length(self):
+        self.assertIn("other pixels than v1500, 2e-05 m against 1e-05 m", self.message(2, "compare", "v1500", "coarse"))
+        self.succeed("compare", "v1500", "coarse", "--length", "10e-6", "--threshold", "500", "--output", "length.h5")
+        ours, theirs = program.datasets(self.folder / "length.h5"), program.datasets(self.folder / "coarse/morphology.h5")
+        time, threshold, fine = curves(self.folder / "v1500/morphology.h5")
+        at = list(threshold).index(500.0)
+        coarse = numpy.stack([theirs[f"temperature/{name}"] / 2.0 ** k for k, name in enumerate(NAMES)], axis=-1)
+        both = numpy.isin(time, theirs["temperature/time"])
+        expected = process_distance(time[both], fine[both][:, at], coarse[:, at], time[0], time[both][-1])
+        self.assertAlmostEqual(ours["run_1/d_p_same"][0], expected, delta=1e-12)
+
+    def test_refusals(self):
+        self.refuse("compare: found 1 run, allowed two or more; the first is the reference", "compare", "v1500")
+        self.refuse('--window: found "5", allowed BEGIN:END, two numbers in seconds, the second larger',
+                    "compare", "v1500", "v1300", "--window", "5")
+        self.refuse('--threshold: found "50", allowed a number from 310 to 900 K, what v1500 measured',
+                    "compare", "v1500", "v1300", "--threshold", "50")
+        self.refuse('v1500/morphology.h5: holds no morphology of "speed", allowed pressure, temperature',
+                    "compare", "v1500", "v1300", "--field", "speed", ranks=2)
+        self.refuse("elsewhere: not found", "compare", "v1500", "elsewhere", ranks=2)
+        self.refuse("table.txt: a comparison goes to a file whose name ends in .h5 or .csv", "compare", "v1500", "v1300",
+                    "--threshold", "500", "--output", "table.txt")
+
+
+if __name__ == "__main__":
+    unittest.main()

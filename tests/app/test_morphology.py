@@ -1,0 +1,93 @@
+"""Morphology of a run: domains and hot spots while it goes, the same on any number of ranks."""
+import unittest
+
+import numpy
+
+import program
+from program import POROUS
+
+LISTED = [600.0, 800.0]
+DOMAINS = ("--set", "morphology.domains=true",
+           "--set", "morphology.hot_spots={ temperature = [600, 800] }")
+
+
+class Domains(program.ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS)
+        for ranks in (1, 2, 4):
+            cls.run_scene("porous.toml", f"run{ranks}", *DOMAINS, ranks=ranks)
+        cls.all = program.datasets(cls.folder / "run1/morphology.h5")
+
+    def test_same_on_any_number_of_ranks(self):
+        for ranks in (2, 4):
+            self.assert_same_datasets("run1/morphology.h5", f"run{ranks}/morphology.h5")
+
+    def test_counts_fit_each_other(self):
+        for field in ("temperature", "pressure"):
+            data = {name.split("/")[1]: values for name, values in self.all.items()
+                    if name.startswith(field + "/") and "domains" not in name}
+            pixels = data["pixels"][:, None]
+            numpy.testing.assert_array_equal(data["chi_paper"], (data["n_W"] - data["n_B"]) / pixels)
+            # A domain has a pixel; all pixels have one of two colours.
+            self.assertTrue((data["n_W"] <= data["F"]).all() and (data["n_B"] <= pixels - data["F"]).all())
+            numpy.testing.assert_array_equal(data["n_W"] > 0, data["F"] > 0)
+            numpy.testing.assert_array_equal(data["n_B"] > 0, data["F"] < pixels)
+            self.assertTrue((data["n_B_frame"] <= data["n_B"]).all())
+
+    def test_hot_spots_add_up(self):
+        spots = {name.split("/")[2]: values for name, values in self.all.items() if "temperature/domains/" in name}
+        records = self.all["temperature/record"]
+        thresholds = self.all["temperature/threshold"]
+        # The band behind the wall winds, spots ahead of it do not: the run has both.
+        self.assertEqual(set(spots["winds"].ravel()), {0, 1})
+        for record in records:
+            for level in LISTED:
+                mine = (spots["record"] == record) & (spots["threshold"] == level)
+                row, column = numpy.searchsorted(records, record), numpy.searchsorted(thresholds, level)
+                self.assertEqual(thresholds[column], level)
+                self.assertEqual(mine.sum(), self.all["temperature/n_W"][row, column])
+                self.assertEqual(spots["pixels"][mine].sum(), self.all["temperature/F"][row, column])
+                self.assertEqual(spots["winds"][mine].sum(), self.all["temperature/white_winding"][row, column])
+                self.assertTrue((numpy.diff(spots["pixels"][mine]) <= 0).all())
+        self.assertTrue((spots["peak"] >= spots["mean"] * (1 - 1e-9)).all())
+        self.assertTrue((spots["mean"] >= spots["threshold"] * (1 - 1e-9)).all())
+        # Inside the block of 0.2 x 0.48 mm, in metres.
+        still = spots["winds"][:] == 0
+        self.assertTrue(((spots["centroid"][still] > 0) & (spots["centroid"][still] < [0.2e-3, 0.48e-3])).all())
+        numpy.testing.assert_allclose(spots["area"], spots["pixels"] * 10e-6 ** 2, rtol=1e-12)
+
+    def test_sites_of_the_particles(self):
+        """On the initial lattice every particle is a pixel from first to last: voids never close."""
+        sites = ("--set", "morphology.lattice=lagrangian", *DOMAINS)
+        for ranks in (1, 3):
+            self.run_scene("porous.toml", f"sites{ranks}", *sites, ranks=ranks)
+        self.assert_same_datasets("sites1/morphology.h5", "sites3/morphology.h5")
+        found = program.datasets(self.folder / "sites1/morphology.h5")
+        particles = [program.particles(path) for path in sorted((self.folder / "sites1").glob("snapshot_*.h5"))]
+        self.assertEqual(set(found["temperature/pixels"]), {len(particles[0]["id"])})
+        hot = particles[-1]["temperature"][:, None] >= found["temperature/threshold"]
+        numpy.testing.assert_array_equal(found["temperature/F"][-1], hot.sum(axis=0))
+        # Two neighbouring sites along x, one above and one below the threshold, are an edge inside.
+        image = numpy.full((96, 40), numpy.nan)
+        image.flat[particles[-1]["id"]] = particles[-1]["temperature"]
+        for level, length in zip(found["temperature/threshold"], found["temperature/B_int"][-1]):
+            edges = 0
+            for other in (numpy.roll(image, -1, axis=1), numpy.vstack((image[1:], numpy.full((1, 40), numpy.nan)))):
+                both = ~numpy.isnan(image) & ~numpy.isnan(other)
+                edges += (both & ((image >= level) != (other >= level))).sum()
+            self.assertEqual(length, edges)
+        # What the run measured is what a snapshot of it gives.
+        self.succeed("analyze", "sites1/snapshot_000008.h5", "--thresholds", "310:900:10", "--output", "after")
+        after = program.datasets(self.folder / "after/morphology.h5")
+        numpy.testing.assert_array_equal(after["temperature/chi_paper"][0], found["temperature/chi_paper"][-1])
+
+    def test_no_domains_unless_asked_for(self):
+        self.run_scene("porous.toml", "plain", "--set", "time.end=5e-9")
+        names = list(program.datasets(self.folder / "plain/morphology.h5"))
+        self.assertFalse([name for name in names if "domains" in name or "n_W" in name or "chi_paper" in name])
+
+
+if __name__ == "__main__":
+    unittest.main()
