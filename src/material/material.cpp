@@ -11,6 +11,7 @@ Material make_material(const MaterialParameters& p) {
   m.strength.kinematic = p.kinematic_share * p.hardening;
   m.temperature = make_temperature_curve(m.eos);
   m.plastic_heat = p.plastic_heat;
+  m.conductivity = p.conductivity;
   return m;
 }
 
@@ -18,8 +19,10 @@ double temperature(const Material& material, Thermal thermal, const ThermalState
   return std::visit(
       [&](const auto& m) {
         const double eta = 1.0 - m.eos.density / state.density;
-        const double reference = reference_temperature(m.eos, m.temperature, eta);
-        if (thermal == Thermal::paper) return reference + state.plastic_work / m.eos.cv;
+        const double reference = reference_temperature(m.temperature, eta);
+        if (thermal == Thermal::paper) {
+          return reference + (state.plastic_work + state.conducted_heat) / m.eos.cv;
+        }
         const double stored = m.deviatoric_energy(state.deviator_square, state.density) +
                               m.back_stress_energy(state.back_stress_square, state.density);
         const double thermal_energy =
@@ -40,6 +43,14 @@ double longitudinal_sound_speed(const Material& material) {
 
 double initial_density(const Material& material) {
   return std::visit([](const auto& m) { return m.eos.density; }, material);
+}
+
+HeatProperties heat_properties(const Material& material) {
+  return std::visit(
+      [](const auto& m) {
+        return HeatProperties{m.eos.density, m.eos.cv, m.conductivity};
+      },
+      material);
 }
 
 }  // namespace poreshock

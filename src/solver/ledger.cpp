@@ -23,6 +23,7 @@ void for_each_sum(LedgerType& l, Visitor&& visit) {
   for (auto& x : l.nodes.wall_impulse) visit(x);
   visit(l.viscous_heat);
   visit(l.transfer_heat);
+  visit(l.conduction);
   visit(l.escaped_energy);
   visit(l.escaped_mass);
   for (auto& x : l.escaped_momentum) visit(x);
@@ -130,7 +131,8 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
                               ledger.nodes.wall_heat,
                               momentum[0],
                               momentum[1],
-                              momentum[2]};
+                              momentum[2],
+                              ledger.conduction};
   sum(sums, communicator);
   std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
                                       ledger.guards.compression + ledger.guards.sound_speed +
@@ -153,6 +155,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   row.viscous_heat = energy(sums[7]);
   row.filter_heat = energy(sums[8]);
   row.wall_heat = energy(sums[9]);
+  row.conduction = energy(sums[13]);
   row.total = energy(sums[0] + sums[1] + sums[4] - sums[5] - sums[6]);
   for (std::size_t a = 0; a < 3; ++a) {
     row.momentum[a] = static_cast<double>(sums[10 + a]) * ledger.momentum_quantum;

@@ -1,6 +1,8 @@
 #include "poreshock/solver/simulation.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -51,6 +53,11 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.cfl = scene.time.cfl;
   sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
+  const bool conducts = conducts_heat(scene);
+  sim.particles.options.conducted_heat = conducts && scene.thermal == Thermal::paper;
+  sim.conduction_limit =
+      conducts ? conduction_limit(sim.materials, scene.transfer.shape, Dim, scene.domain.cell)
+               : std::numeric_limits<double>::infinity();
   sim.phases = make_phase_table();
   return sim;
 }
@@ -63,7 +70,7 @@ std::size_t run_state_integers(const Simulation<Dim>& sim) {
 
 template <int Dim>
 void take_report(const StressReport& report, Simulation<Dim>& sim) {
-  sim.clock.limit = report.dt_limit;
+  sim.clock.limit = std::min(report.dt_limit, sim.conduction_limit);
   sim.clock.bad = report.bad;
   sim.ledger.guards.compression += report.compression_guard;
   sim.ledger.guards.sound_speed += report.sound_speed_guard;
@@ -142,6 +149,14 @@ void advance(Simulation<Dim>& sim, double dt) {
   const bool affine = transfer.velocity == VelocityTransfer::apic;
   sort_particles(sim);
   sim.step_data.resize(sim.particles.size(), averaging);
+  if (sim.heat) {
+    // At the start of the step density, energy and position belong together and the sort holds; the
+    // stress update at its end then sees the heat in the energy that pressure follows from.
+    const Phase phase(sim.phases, PhaseName::conduction);
+    conduct_heat(sim.materials, sim.scene.thermal, transfer.shape, sim.cells, dt,
+                 sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
+                 sim.ledger.conduction);
+  }
   if (averaging) {
     const Phase phase(sim.phases, PhaseName::average);
     average_pressure(sim.particles, sim.cells, transfer, *sim.averages, sim.step_data);

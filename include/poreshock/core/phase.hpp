@@ -17,6 +17,7 @@ enum class PhaseName {
   average,
   grid_update,
   grid_to_particles,
+  conduction,
   stress,
   time_step,
   migrate,

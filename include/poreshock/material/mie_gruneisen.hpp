@@ -73,6 +73,7 @@ inline EquationOfState paper_state(const MieGruneisen& eos, double density, doub
 struct TemperatureCurve {
   double first = 0.0, step = 0.0;    ///< eta of node 0, spacing
   std::vector<double> value, slope;  ///< K, K per unit eta
+  double doubling = 1.0;  ///< 2^-gamma, the change of T_r when an expanded volume doubles
 };
 
 /// The table of a material; made once.
@@ -80,6 +81,6 @@ TemperatureCurve make_temperature_curve(const MieGruneisen& eos);
 
 /// T_r at eta, K. Outside the table it continues by the tangent at its end (compression) or exactly
 /// (expansion).
-double reference_temperature(const MieGruneisen& eos, const TemperatureCurve& curve, double eta);
+double reference_temperature(const TemperatureCurve& curve, double eta);
 
 }  // namespace poreshock
