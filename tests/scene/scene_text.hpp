@@ -134,6 +134,8 @@ averaging = 0.25
 [viscosity]
 linear = 0.4
 quadratic = 1.5
+[conduction]
+on = true
 [time]
 end = 1e-7
 cfl = 0.5

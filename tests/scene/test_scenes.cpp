@@ -37,6 +37,8 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.time.cfl, 0.5);
   EXPECT_EQ(scene.transfer, Transfer{});
   EXPECT_EQ(scene.viscosity, Viscosity{});
+  EXPECT_FALSE(scene.conduction.on);
+  EXPECT_FALSE(conducts_heat(scene));
   EXPECT_EQ(scene.output.beat, 5e-9);
   EXPECT_EQ(scene.output.history, 5e-9);
   EXPECT_EQ(scene.output.fields.size(), 14u);
@@ -69,6 +71,8 @@ TEST(Scenes, EveryKeyOf2D) {
   EXPECT_EQ(scene.body_force, (Triple{0.0, -9.81, 0.0}));
   EXPECT_EQ(scene.transfer,
             (Transfer{ShapeFunction::quadratic, VelocityTransfer::flip, 1e5, 0.25}));
+  EXPECT_TRUE(scene.conduction.on);
+  EXPECT_TRUE(conducts_heat(scene));
   EXPECT_EQ(scene.time.max_steps, 1000000000000);
   EXPECT_EQ(scene.output.fields, (std::vector<std::string>{"stress", "id"}));
   EXPECT_EQ(scene.output.precision, Precision::single_precision);
