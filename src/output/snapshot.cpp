@@ -118,6 +118,7 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
   add("id", NumberType::int64, 1, "1");
   add("grain", NumberType::int32, 1, "1");
   add("material", NumberType::int32, 1, "1");
+  if (input.particles.options.failed) add("failed", NumberType::int32, 1, "1");
   const bool single = input.scene.output.precision == Precision::single_precision;
   for (const auto& field : fields_of(input.particles)) {
     add(field.name, single ? NumberType::float32 : NumberType::float64, field.components,
@@ -173,6 +174,7 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   write_integers("id", particles.id);
   write_integers("grain", particles.grain);
   write_integers("material", particles.material);
+  if (particles.options.failed) write_integers("failed", particles.failed);
   for (const auto& field : fields_of(particles)) {
     if (!wanted(input.scene, field.name)) continue;
     if (input.scene.output.precision == Precision::single_precision) {

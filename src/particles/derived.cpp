@@ -72,7 +72,8 @@ double particle_temperature(const Particles<Dim>& p, const std::vector<Material>
                            p.plastic_work[i],
                            p.options.conducted_heat ? p.conducted_heat[i] : 0.0,
                            square<Dim>(p.deviator, i),
-                           p.options.back_stress ? square<Dim>(p.back_stress, i) : 0.0};
+                           p.options.back_stress ? square<Dim>(p.back_stress, i) : 0.0,
+                           p.options.failed && p.failed[i] != 0};
   return temperature(materials[static_cast<std::size_t>(p.material[i])], thermal, state);
 }
 

@@ -27,6 +27,7 @@ inline const std::vector<std::string> particle_datasets{"id",
 inline std::vector<std::string> datasets_of(const Scene& scene) {
   std::vector<std::string> names = particle_datasets;
   if (scene.thermal == Thermal::paper && conducts_heat(scene)) names.push_back("conducted_heat");
+  if (can_fail(scene)) names.push_back("failed");
   return names;
 }
 

@@ -53,6 +53,7 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.cfl = scene.time.cfl;
   sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
+  sim.particles.options.failed = can_fail(scene);
   const bool conducts = conducts_heat(scene);
   sim.particles.options.conducted_heat = conducts && scene.thermal == Thermal::paper;
   sim.conduction_limit =

@@ -4,6 +4,7 @@
 // models are listed once, in the variant `Material`.
 
 #include <concepts>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -32,6 +33,7 @@ struct MaterialParameters {
   double cv = 0.0;            ///< J/(kg K)
   double conductivity = 0.0;  ///< W/(m K)
   double T0 = 300.0;          ///< K
+  double spall = 0.0;         ///< Pa, tension at which the material fails; 0 = never
 
   bool operator==(const MaterialParameters&) const = default;
 };
@@ -42,7 +44,8 @@ struct J2MieGruneisen {
   J2Plasticity strength;
   TemperatureCurve temperature;
   PlasticHeat plastic_heat = PlasticHeat::work;
-  double conductivity = 0.0;  ///< W/(m K)
+  double conductivity = 0.0;                               ///< W/(m K)
+  double spall = std::numeric_limits<double>::infinity();  ///< Pa, infinite where it cannot fail
 
   /// Energy per mass stored in the deviator, s:s/(4 G rho), J/kg; zero for a fluid.
   double deviatoric_energy(double deviator_square, double density) const {
@@ -80,10 +83,12 @@ struct ThermalState {
   double conducted_heat = 0.0;      ///< J/kg, paper mode only
   double deviator_square = 0.0;     ///< s:s, Pa^2
   double back_stress_square = 0.0;  ///< Pa^2
+  bool failed = false;              ///< spalled: what has opened is not solid
 };
 
 /// Temperature, K. paper: T_r(V) + (W_p + conducted heat)/c_v (eqs 6, 7); conserving: T_r(V) +
-/// (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. Not clamped.
+/// (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. A failed particle that has
+/// opened has the volume of its solid without load. Not clamped.
 double temperature(const Material& material, Thermal thermal, const ThermalState& state);
 
 /// Longitudinal sound speed of the undisturbed material, m/s.

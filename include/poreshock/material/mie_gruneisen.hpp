@@ -3,6 +3,7 @@
 // Grueneisen coefficient; in expansion the reference is linear in the specific volume.
 // eta = 1 - V/V0 = 1 - rho0/rho. Compression positive.
 
+#include <cmath>
 #include <vector>
 
 namespace poreshock {
@@ -66,6 +67,14 @@ inline EquationOfState paper_state(const MieGruneisen& eos, double density, doub
   const ReferencePoint r = reference_point(eos, 1.0 - eos.density * v);
   return {r.pressure + eos.gamma * density * plastic_work,
           eos.density * (v * v) * r.pressure_slope + eos.gamma * plastic_work};
+}
+
+/// Compression eta at which the branch of expansion bears no pressure: K eta (1 - c eta) + gamma
+/// rho0 heat = 0, where c is 1 + gamma/2 when `heat` (J/kg) is the internal energy and 1 when it is
+/// the plastic work of the paper's model.
+inline double unloaded_eta(const MieGruneisen& eos, double c, double heat) {
+  const double square = 1.0 + 4.0 * c * (eos.gamma * eos.density * heat / eos.bulk);
+  return (1.0 - std::sqrt(square > 0.0 ? square : 0.0)) / (2.0 * c);
 }
 
 /// Temperature along the reference curve, T_r(eta), tabulated (paper eq 6; T V^gamma constant in

@@ -175,4 +175,10 @@ inline bool conducts_heat(const Scene& scene) {
                      [](const MaterialParameters& m) { return m.conductivity > 0.0; });
 }
 
+/// True when some material has a spall strength.
+inline bool can_fail(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const MaterialParameters& m) { return m.spall > 0.0; });
+}
+
 }  // namespace poreshock
