@@ -80,6 +80,7 @@ gamma = 2.0
 cv = 880
 conductivity = 237
 T0 = 293.15
+spall = 1e9
 [[material]]
 name = "water"
 density = 1000

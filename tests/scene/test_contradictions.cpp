@@ -142,6 +142,11 @@ TEST(Contradictions, Beat) {
 }
 
 TEST(Contradictions, OutputFields) {
+  // A dataset of physics that the scene does not ask for.
+  EXPECT_NE(override_problems("output.fields=[\"id\", \"failed\"]")
+                .find("output.fields: found \"failed\", allowed \"id\", \"grain\""),
+            std::string::npos);
+  EXPECT_EQ(problems(small_scene(), {"output.fields=[\"failed\"]", "material.0.spall=1e9"}), "");
   EXPECT_EQ(override_problems("output.fields=[\"id\", \"id\"]"),
             "--set output.fields=[\"id\", \"id\"]: output.fields: found \"id\", allowed each name "
             "once");
