@@ -9,8 +9,9 @@ namespace poreshock {
 
 namespace {
 
-void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, double cell,
-            double inverse_quantum, StressReport& report) {
+// Not part of the flattened loop.
+[[gnu::noinline]] void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count,
+                              double cell, double inverse_quantum, StressReport& report) {
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   for (std::size_t k = 0; k < count; ++k) {
     // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
