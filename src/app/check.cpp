@@ -18,13 +18,34 @@ namespace {
 /// Rate the estimate of the run time assumes, particle-steps per second per core, 2-D and 3-D.
 constexpr double assumed_rate[2] = {4.0e6, 1.0e6};
 
-/// Typical step: the shocked sound speed is about 1.2 times the initial one.
-double typical_step(const Scene& scene) {
+/// Typical step of the motion: the shocked sound speed is about 1.2 times the initial one.
+double mechanical_step(const Scene& scene) {
   double speed = 0.0;
   for (const MaterialParameters& m : scene.materials) {
     speed = std::max(speed, longitudinal_sound_speed(make_material(m)));
   }
   return scene.time.cfl * scene.domain.cell / (1.2 * speed + scene.loading.velocity);
+}
+
+/// How far heat gets until the end, beside the size of the voids; nothing without conduction.
+void print_conduction(const Scene& scene, double mechanical, double limit) {
+  if (!scene.conduction.on) return;
+  if (!conducts_heat(scene)) {
+    std::printf("heat conduction         none: every material.conductivity is 0\n");
+    return;
+  }
+  for (const MaterialParameters& m : scene.materials) {
+    const double a = m.conductivity / (m.density * m.cv);
+    const double length = std::sqrt(4.0 * a * scene.time.end);
+    std::printf("diffusion length        %.3g m in %s until the end, %.2g cells", length,
+                m.name.c_str(), length / scene.domain.cell);
+    if (scene.sample.kind == SampleKind::random_voids) {
+      std::printf(", %.2g void diameters", length / (2.0 * scene.sample.void_radius));
+    }
+    std::printf("\n");
+  }
+  std::printf("step of heat conduction at most %.3g s, %s the motion's\n", limit,
+              limit < mechanical ? "below" : "above");
 }
 
 void print_sample(const Scene& scene, const SampleReport& report) {
@@ -55,11 +76,13 @@ void check(const Scene& scene, MPI_Comm communicator) {
   std::printf("%s\n", sim.scene_text.c_str());
   print_sample(scene, sim.sample);
   const double particles = static_cast<double>(sim.sample.particles);
-  const double dt = typical_step(scene);
+  const double mechanical = mechanical_step(scene);
+  const double dt = std::min(mechanical, sim.conduction_limit);
   const double steps = std::ceil(scene.time.end / dt);
   // State, step data, sort order and cell numbers.
   const double bytes = static_cast<double>(bytes_per_particle(sim.particles)) +
                        8.0 * (Dim * Dim + rate_size<Dim> + 1) + 8.0;
+  print_conduction(scene, mechanical, sim.conduction_limit);
   const double rate = assumed_rate[Dim - 2] * size(communicator);
   std::printf("typical time step       %.3g s, about %.0f steps\n", dt, steps);
   std::printf(

@@ -1,5 +1,7 @@
 #include "poreshock/material/material.hpp"
 
+#include <algorithm>
+
 namespace poreshock {
 
 Material make_material(const MaterialParameters& p) {
@@ -11,20 +13,27 @@ Material make_material(const MaterialParameters& p) {
   m.strength.kinematic = p.kinematic_share * p.hardening;
   m.temperature = make_temperature_curve(m.eos);
   m.plastic_heat = p.plastic_heat;
+  m.conductivity = p.conductivity;
+  if (p.spall > 0.0) m.spall = p.spall;
   return m;
 }
 
 double temperature(const Material& material, Thermal thermal, const ThermalState& state) {
+  const bool paper = thermal == Thermal::paper;
   return std::visit(
       [&](const auto& m) {
-        const double eta = 1.0 - m.eos.density / state.density;
-        const double reference = reference_temperature(m.eos, m.temperature, eta);
-        if (thermal == Thermal::paper) return reference + state.plastic_work / m.eos.cv;
-        const double stored = m.deviatoric_energy(state.deviator_square, state.density) +
-                              m.back_stress_energy(state.back_stress_square, state.density);
-        const double thermal_energy =
-            state.internal_energy - stored - reference_point(m.eos, eta).energy;
-        return reference + thermal_energy / m.eos.cv;
+        const double heat = paper
+                                ? state.plastic_work
+                                : state.internal_energy -
+                                      m.deviatoric_energy(state.deviator_square, state.density) -
+                                      m.back_stress_energy(state.back_stress_square, state.density);
+        double eta = 1.0 - m.eos.density / state.density;
+        if (state.failed) {
+          eta = std::max(eta, unloaded_eta(m.eos, paper ? 1.0 : 1.0 + 0.5 * m.eos.gamma, heat));
+        }
+        const double reference = reference_temperature(m.temperature, eta);
+        if (paper) return reference + (heat + state.conducted_heat) / m.eos.cv;
+        return reference + (heat - reference_point(m.eos, eta).energy) / m.eos.cv;
       },
       material);
 }
@@ -40,6 +49,14 @@ double longitudinal_sound_speed(const Material& material) {
 
 double initial_density(const Material& material) {
   return std::visit([](const auto& m) { return m.eos.density; }, material);
+}
+
+HeatProperties heat_properties(const Material& material) {
+  return std::visit(
+      [](const auto& m) {
+        return HeatProperties{m.eos.density, m.eos.cv, m.conductivity};
+      },
+      material);
 }
 
 }  // namespace poreshock

@@ -7,6 +7,7 @@ namespace poreshock {
 
 namespace {
 constexpr int intervals_to_guard = 1280;  // about 3e-4 in eta
+constexpr int most_doublings = 1100;      // of a volume that is still finite
 
 // The Hugoniot is singular at eta = 1/lambda, and eta = 1 is no volume at all.
 double eta_limit(double lambda) {
@@ -28,7 +29,7 @@ TemperatureCurve make_temperature_curve(const MieGruneisen& eos) {
   TemperatureCurve curve;
   // The curve bends at V0 and at the guard: a node lies on each. It starts at twice V0.
   curve.step = eos.guard / intervals_to_guard;
-  const int below = static_cast<int>(1.0 / curve.step);
+  const int below = static_cast<int>(std::ceil(1.0 / curve.step));
   const int above = static_cast<int>(0.95 * eta_limit(eos.lambda) / curve.step);
   curve.first = -curve.step * below;
   // Eq 6 in eta: what the reference energy gains beyond the work of the reference pressure, K.
@@ -55,12 +56,22 @@ TemperatureCurve make_temperature_curve(const MieGruneisen& eos) {
     curve.value.push_back(T);
     curve.slope.push_back(eos.gamma * T / (1.0 - eta) + (i > 0 ? heat(eta) : 0.0));
   }
+  curve.doubling = std::pow(0.5, eos.gamma);
   return curve;
 }
 
-double reference_temperature(const MieGruneisen& eos, const TemperatureCurve& curve, double eta) {
+double reference_temperature(const TemperatureCurve& curve, double eta) {
   // The negation sends NaN this way, where it passes on.
-  if (!(eta >= curve.first)) return eos.T0 / std::pow(1.0 - eta, eos.gamma);
+  if (!(eta >= curve.first)) {
+    // T V^gamma is constant: halve the volume until the table has it. The temperature is state
+    // where heat is conducted, so that no power function may enter here.
+    double ratio = 1.0 - eta, factor = 1.0;
+    for (int k = 0; k < most_doublings && ratio > 2.0; ++k) {
+      ratio *= 0.5;
+      factor *= curve.doubling;
+    }
+    return ratio <= 2.0 ? factor * reference_temperature(curve, 1.0 - ratio) : factor * ratio;
+  }
   const double s = (eta - curve.first) / curve.step;
   const auto last = curve.value.size() - 1;
   if (s >= static_cast<double>(last)) {

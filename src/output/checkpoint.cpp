@@ -28,7 +28,9 @@ std::string_view column_unit(std::string_view name, int dimension) {
   if (name == "affine") return "1/s";
   if (name == "mass") return dimension == 2 ? "kg/m" : "kg";
   if (name == "density") return "kg/m^3";
-  if (name == "internal_energy" || name == "plastic_work") return "J/kg";
+  if (name == "internal_energy" || name == "plastic_work" || name == "conducted_heat") {
+    return "J/kg";
+  }
   if (name.ends_with("pressure") || name == "deviator" || name == "back_stress") return "Pa";
   return "1";
 }
@@ -49,6 +51,8 @@ FileSpec file_spec(const std::string& scene_text, const RunState& state,
   spec.attributes.push_back({"wall_seconds", state.wall_seconds});
   spec.attributes.push_back({"affine", std::int64_t{particles.options.affine}});
   spec.attributes.push_back({"back_stress", std::int64_t{particles.options.back_stress}});
+  spec.attributes.push_back({"conducted_heat", std::int64_t{particles.options.conducted_heat}});
+  spec.attributes.push_back({"failed", std::int64_t{particles.options.failed}});
   spec.datasets.push_back({integers_path, NumberType::int64, {state.integers.size()}, "1", {}});
   for_each_column(particles, [&](std::string_view name, int component, const auto& column) {
     spec.datasets.push_back({column_path(name, component),
@@ -72,6 +76,11 @@ void check_kind(Hdf5File& file) {
                      "): checkpoint format " + std::to_string(format) +
                      ", this program reads up to " + std::to_string(checkpoint_format));
   }
+}
+
+/// Whether an optional column is there; files older than the column do not name it.
+bool optional_column(Hdf5File& file, const std::string& name) {
+  return file.attribute(name) && file.integer(name) != 0;
 }
 
 RunState read_state(Hdf5File& file) {
@@ -122,6 +131,8 @@ void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string
   particles = Particles<Dim>{};
   particles.options.affine = file.integer("affine") != 0;
   particles.options.back_stress = file.integer("back_stress") != 0;
+  particles.options.conducted_heat = optional_column(file, "conducted_heat");
+  particles.options.failed = optional_column(file, "failed");
   const RowRange rows = equal_share(file.dataset(column_path("id", -1)).rows(), communicator);
   resize(particles, rows.count);
   for_each_column(particles, [&](std::string_view name, int component, auto& column) {

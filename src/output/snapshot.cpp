@@ -69,6 +69,28 @@ auto fields() {
   }};
 }
 
+/// Datasets of the physics that only some scenes ask for: none without.
+template <int Dim>
+std::vector<Field<Dim>> optional_fields(const Particles<Dim>& particles) {
+  std::vector<Field<Dim>> list;
+  if (particles.options.conducted_heat) {
+    list.push_back(
+        {"conducted_heat", 1, "J/kg", [](const Source<Dim>& s, std::size_t i, std::size_t) {
+           return s.input.particles.conducted_heat[i];
+         }});
+  }
+  return list;
+}
+
+/// The datasets of floating-point numbers of one snapshot.
+template <int Dim>
+std::vector<Field<Dim>> fields_of(const Particles<Dim>& particles) {
+  const auto common = fields<Dim>();
+  std::vector<Field<Dim>> list(common.begin(), common.end());
+  for (const auto& field : optional_fields(particles)) list.push_back(field);
+  return list;
+}
+
 /// Whether a dataset is written; a reader needs the id and the position of every snapshot.
 bool wanted(const Scene& scene, std::string_view name) {
   const std::vector<std::string>& list = scene.output.fields;
@@ -100,8 +122,9 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
   add("id", NumberType::int64, 1, "1");
   add("grain", NumberType::int32, 1, "1");
   add("material", NumberType::int32, 1, "1");
+  if (input.particles.options.failed) add("failed", NumberType::int32, 1, "1");
   const bool single = input.scene.output.precision == Precision::single_precision;
-  for (const auto& field : fields<Dim>()) {
+  for (const auto& field : fields_of(input.particles)) {
     add(field.name, single ? NumberType::float32 : NumberType::float64, field.components,
         field.unit);
   }
@@ -129,12 +152,6 @@ double affine_inertia(const Scene& scene) {
 
 }  // namespace
 
-std::vector<std::string_view> snapshot_fields() {
-  std::vector<std::string_view> names = {"id", "grain", "material"};
-  for (const auto& field : fields<2>()) names.push_back(field.name);
-  return names;
-}
-
 std::string snapshot_name(std::int64_t record) {
   return numbered_name("snapshot_", record, 6, ".h5");
 }
@@ -161,7 +178,8 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   write_integers("id", particles.id);
   write_integers("grain", particles.grain);
   write_integers("material", particles.material);
-  for (const auto& field : fields<Dim>()) {
+  if (particles.options.failed) write_integers("failed", particles.failed);
+  for (const auto& field : fields_of(particles)) {
     if (!wanted(input.scene, field.name)) continue;
     if (input.scene.output.precision == Precision::single_precision) {
       write_field<float>(field, source, rows.first, file);

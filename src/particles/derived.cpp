@@ -37,11 +37,7 @@ std::int64_t temperatures(const Particles<Dim>& p, const std::vector<Material>& 
       out[i] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    const ThermalState state{p.density[i], p.internal_energy[i], p.plastic_work[i],
-                             square<Dim>(p.deviator, i),
-                             p.options.back_stress ? square<Dim>(p.back_stress, i) : 0.0};
-    const double value =
-        temperature(materials[static_cast<std::size_t>(p.material[i])], thermal, state);
+    const double value = particle_temperature<Dim>(p, materials, thermal, i);
     floored += value < temperature_floor;
     out[i] = value < temperature_floor ? temperature_floor : value;
   }
@@ -69,6 +65,19 @@ std::string_view derived_unit(std::string_view name) {
 }
 
 template <int Dim>
+double particle_temperature(const Particles<Dim>& p, const std::vector<Material>& materials,
+                            Thermal thermal, std::size_t i) {
+  const ThermalState state{p.density[i],
+                           p.internal_energy[i],
+                           p.plastic_work[i],
+                           p.options.conducted_heat ? p.conducted_heat[i] : 0.0,
+                           square<Dim>(p.deviator, i),
+                           p.options.back_stress ? square<Dim>(p.back_stress, i) : 0.0,
+                           p.options.failed && p.failed[i] != 0};
+  return temperature(materials[static_cast<std::size_t>(p.material[i])], thermal, state);
+}
+
+template <int Dim>
 std::int64_t derive_field(std::string_view name, const Particles<Dim>& particles,
                           const std::vector<Material>& materials, Thermal thermal,
                           std::vector<double>& out) {
@@ -87,6 +96,10 @@ std::int64_t derive_field(std::string_view name, const Particles<Dim>& particles
   return 0;
 }
 
+template double particle_temperature<2>(const Particles<2>&, const std::vector<Material>&, Thermal,
+                                        std::size_t);
+template double particle_temperature<3>(const Particles<3>&, const std::vector<Material>&, Thermal,
+                                        std::size_t);
 template std::int64_t derive_field<2>(std::string_view, const Particles<2>&,
                                       const std::vector<Material>&, Thermal, std::vector<double>&);
 template std::int64_t derive_field<3>(std::string_view, const Particles<3>&,

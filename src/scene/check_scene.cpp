@@ -253,6 +253,16 @@ void check_transfer(const Scene& scene, Report& report) {
   check_filter(scene, report);
 }
 
+void check_conduction(const Scene& scene, Report& report) {
+  if (!good(report, {"conduction", "transfer.shape"}) || !scene.conduction.on) return;
+  const ShapeFunction shape = scene.transfer.shape;
+  if (shape == ShapeFunction::quadratic || shape == ShapeFunction::cubic) return;
+  add_problem("conduction.on",
+              "found true, allowed with transfer.shape = \"quadratic\" or \"cubic\": the slopes of "
+              "the others jump where particles cross cells",
+              report);
+}
+
 void check_beat(double value, const char* path, bool may_be_zero, double beat, Report& report) {
   if (!good(report, {path, "output.beat"}) || (may_be_zero && value == 0.0)) return;
   if (whole_multiple(value, beat)) return;
@@ -352,6 +362,7 @@ void check_scene(const Scene& scene, Report& report) {
     check_region(scene.voids[i], scene.dimension, "void." + std::to_string(i), report);
   }
   check_transfer(scene, report);
+  check_conduction(scene, report);
   check_output(scene, report);
   check_morphology(scene, report);
 }

@@ -6,28 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "dataset_names.hpp"
 #include "poreshock/scene/scene.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
-
-inline const std::vector<std::string> particle_datasets{"id",
-                                                        "grain",
-                                                        "material",
-                                                        "position",
-                                                        "velocity",
-                                                        "mass",
-                                                        "density",
-                                                        "pressure",
-                                                        "stress",
-                                                        "temperature",
-                                                        "plastic_strain",
-                                                        "plastic_work",
-                                                        "internal_energy",
-                                                        "kinetic_energy"};
-
-inline const std::vector<std::string> morphology_fields{
-    "temperature", "pressure", "density", "speed", "von_mises", "plastic_strain"};
 
 template <typename Visitor>
 void visit_domain(Visitor& visitor, Scene& scene) {
@@ -91,6 +74,7 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
   visitor.number("conductivity", material.conductivity,
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
   visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
+  visitor.number("spall", material.spall, {not_negative, "Pa", "tension it fails at; 0 = never"});
 }
 
 /// Index of a material by its name; the first material by default.
@@ -238,6 +222,11 @@ void visit_viscosity(Visitor& visitor, Viscosity& viscosity) {
 }
 
 template <typename Visitor>
+void visit_conduction(Visitor& visitor, Conduction& conduction) {
+  visitor.flag("on", conduction.on, {"true where heat flows, by material.conductivity"});
+}
+
+template <typename Visitor>
 void visit_time(Visitor& visitor, TimeControl& time) {
   visitor.number("end", time.end, {positive, "s", "of the run; impact is at 0", Need::required});
   visitor.number("cfl", time.cfl,
@@ -248,7 +237,8 @@ void visit_time(Visitor& visitor, TimeControl& time) {
 }
 
 template <typename Visitor>
-void visit_output(Visitor& visitor, Output& output) {
+void visit_output(Visitor& visitor, Scene& scene) {
+  Output& output = scene.output;
   const Names<Precision> precisions{{"double", Precision::double_precision},
                                     {"single", Precision::single_precision}};
   visitor.number("beat", output.beat, {positive, "s", "steps land on its multiples"});
@@ -257,8 +247,9 @@ void visit_output(Visitor& visitor, Output& output) {
   visitor.fallback(output.history, output.beat);
   visitor.number("history", output.history,
                  {positive, "s", "between rows of history.csv, multiple of beat"});
-  visitor.fallback(output.fields, particle_datasets);
-  visitor.names("fields", output.fields, particle_datasets,
+  const std::vector<std::string> datasets = datasets_of(scene);
+  visitor.fallback(output.fields, datasets);
+  visitor.names("fields", output.fields, datasets,
                 {"particle datasets of a snapshot, by default all"});
   choice(visitor, "precision", output.precision, precisions, {"of the numbers in a snapshot"});
 }
@@ -332,9 +323,11 @@ void visit_scene(Visitor& visitor, Scene& scene) {
                 [&](auto& inner) { visit_transfer(inner, scene.transfer); });
   visitor.table("viscosity", {"Artificial viscosity, its coefficients."},
                 [&](auto& inner) { visit_viscosity(inner, scene.viscosity); });
+  visitor.table("conduction", {"Conduction of heat."},
+                [&](auto& inner) { visit_conduction(inner, scene.conduction); });
   visitor.table("time", {"Time."}, [&](auto& inner) { visit_time(inner, scene.time); });
   visitor.table("output", {"What is written and when."},
-                [&](auto& inner) { visit_output(inner, scene.output); });
+                [&](auto& inner) { visit_output(inner, scene); });
   visitor.table("morphology", {"Minkowski functionals while the run goes."},
                 [&](auto& inner) { visit_morphology(inner, scene); });
   visitor.table("profile", {"Averages over rows of cells along the shock axis, and the front."},

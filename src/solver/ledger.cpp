@@ -23,6 +23,7 @@ void for_each_sum(LedgerType& l, Visitor&& visit) {
   for (auto& x : l.nodes.wall_impulse) visit(x);
   visit(l.viscous_heat);
   visit(l.transfer_heat);
+  visit(l.conduction);
   visit(l.escaped_energy);
   visit(l.escaped_mass);
   for (auto& x : l.escaped_momentum) visit(x);
@@ -149,7 +150,8 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
                               ledger.nodes.body_work,
                               ledger.viscous_heat,
                               ledger.nodes.filter_heat + ledger.transfer_heat,
-                              ledger.nodes.wall_heat};
+                              ledger.nodes.wall_heat,
+                              ledger.conduction};
   sum(sums, communicator);
   std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
                                       ledger.guards.compression + ledger.guards.sound_speed +
@@ -172,6 +174,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   row.viscous_heat = energy(sums[7]);
   row.filter_heat = energy(sums[8]);
   row.wall_heat = energy(sums[9]);
+  row.conduction = energy(sums[10]);
   row.total = energy(sums[0] + sums[1] + sums[4] - sums[5] - sums[6]);
   balance_momentum(momentum, ledger, communicator, row);
   return row;

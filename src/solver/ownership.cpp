@@ -120,10 +120,14 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
     if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;
     sim.grid.reset();
     sim.averages.reset();
+    sim.heat.reset();
   }
   sim.grid = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
   if (sim.scene.transfer.averaging > 0.0) {
     sim.averages = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+  }
+  if (conducts_heat(sim.scene)) {
+    sim.heat = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
   }
   std::vector<int> destination(sim.particles.size());
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {

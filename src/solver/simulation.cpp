@@ -1,6 +1,8 @@
 #include "poreshock/solver/simulation.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -54,6 +56,12 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.cfl = scene.time.cfl;
   sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
+  sim.particles.options.failed = can_fail(scene);
+  const bool conducts = conducts_heat(scene);
+  sim.particles.options.conducted_heat = conducts && scene.thermal == Thermal::paper;
+  sim.conduction_limit =
+      conducts ? conduction_limit(sim.materials, scene.transfer.shape, Dim, scene.domain.cell)
+               : std::numeric_limits<double>::infinity();
   sim.phases = make_phase_table();
   return sim;
 }
@@ -66,7 +74,7 @@ std::size_t run_state_integers(const Simulation<Dim>& sim) {
 
 template <int Dim>
 void take_report(const StressReport& report, Simulation<Dim>& sim) {
-  sim.clock.limit = report.dt_limit;
+  sim.clock.limit = std::min(report.dt_limit, sim.conduction_limit);
   sim.clock.bad = report.bad;
   sim.ledger.guards.compression += report.compression_guard;
   sim.ledger.guards.sound_speed += report.sound_speed_guard;
@@ -165,6 +173,14 @@ void advance(Simulation<Dim>& sim, double dt) {
     const Phase phase(sim.phases, PhaseName::filter);
     filter_velocity(sim.cells, transfer, sim.ledger.nodes.inverse_energy_quantum, *sim.grid,
                     sim.particles, sim.step_data, sim.ledger.transfer_heat);
+  }
+  if (sim.heat) {
+    // At the start of the step density, energy and position belong together and the sort holds; the
+    // stress update at its end then sees the heat in the energy that pressure follows from.
+    const Phase phase(sim.phases, PhaseName::conduction);
+    conduct_heat(sim.materials, sim.scene.thermal, transfer.shape, sim.cells, dt,
+                 sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
+                 sim.ledger.conduction);
   }
   if (averaging) {
     const Phase phase(sim.phases, PhaseName::average);

@@ -75,6 +75,8 @@ void round_trip(ParticleOptions options) {
       EXPECT_EQ(state, sample_state);
       EXPECT_EQ(particles.options.affine, options.affine);
       EXPECT_EQ(particles.options.back_stress, options.back_stress);
+      EXPECT_EQ(particles.options.conducted_heat, options.conducted_heat);
+      EXPECT_EQ(particles.options.failed, options.failed);
       const RowRange share = equal_share(total, part);
       const auto expected = made_up_particles<Dim>(static_cast<std::int64_t>(share.first),
                                                    static_cast<std::int64_t>(share.count), options);
@@ -90,6 +92,10 @@ TEST(Checkpoint, AnyRanksToAnyRanksPlaneStrain) {
 }
 TEST(Checkpoint, AnyRanksToAnyRanksThreeDimensions) {
   round_trip<3>({false, true});
+}
+
+TEST(Checkpoint, AnyRanksToAnyRanksOptionalColumns) {
+  round_trip<2>({false, false, true, true});
 }
 
 TEST(Checkpoint, NoParticlesAtAll) {

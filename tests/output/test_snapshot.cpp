@@ -1,6 +1,7 @@
 // Snapshots say what the particles are, to our reader, to the plain HDF5 library and to h5py.
 #include <hdf5.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "output/scenes.hpp"
@@ -129,6 +130,40 @@ TEST(Snapshot, SubsetAndSinglePrecision) {
   EXPECT_EQ(file.dataset("/particles/grain").type, NumberType::int32);
   EXPECT_EQ(file.dataset("/particles/position").type, NumberType::float32);
   EXPECT_EQ(file.read_all<std::int64_t>("/particles/id"), physical_particles<2>(0, total).id);
+}
+
+TEST(Snapshot, ColumnsOfPhysicsInUse) {
+  const TemporaryFolder folder;
+  const std::string path = folder / snapshot_name(0);
+  const Scene scene = test::small_scene(2);
+  const auto materials = test::small_materials();
+  Particles<2> particles = physical_particles<2>(3 * rank(world), 3);
+  const SnapshotInput<2> input{scene, scene_text, materials, particles};
+  const auto holds = [&](const char* name) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const bool there = H5Lexists(file, name, H5P_DEFAULT) > 0;
+    H5Fclose(file);
+    return there;
+  };
+  write_snapshot(path, input, world);
+  EXPECT_FALSE(holds("/particles/failed"));
+  EXPECT_FALSE(holds("/particles/conducted_heat"));
+  MPI_Barrier(world);
+  particles.options.failed = particles.options.conducted_heat = true;
+  resize(particles, particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.failed[i] = particles.id[i] % 2 == 0 ? 1 : 0;
+    particles.conducted_heat[i] = -5.0 * static_cast<double>(particles.id[i]);
+  }
+  write_snapshot(path, input, world);
+  const std::vector<double> ids = plain_read(path, "/particles/id");
+  const std::vector<double> failed = plain_read(path, "/particles/failed");
+  const std::vector<double> heat = plain_read(path, "/particles/conducted_heat");
+  ASSERT_EQ(ids.size(), static_cast<std::size_t>(3 * size(world)));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    EXPECT_EQ(failed[i], std::fmod(ids[i], 2.0) == 0.0 ? 1.0 : 0.0);
+    EXPECT_EQ(heat[i], -5.0 * ids[i]);
+  }
 }
 
 TEST(Snapshot, FlooredTemperaturesAreCountedOverTheRanks) {

@@ -12,7 +12,7 @@ namespace {
 using test::first_wrong_number;
 using test::numbered_particles;
 
-constexpr ParticleOptions everything{true, true};
+constexpr ParticleOptions everything{true, true, true, true};
 
 template <int Dim>
 std::vector<std::string> column_names(ParticleOptions options) {
@@ -69,14 +69,17 @@ TEST(Columns, HaveTheOrderOfTheCheckpointFormat) {
                                                                    "back_stress0",
                                                                    "back_stress1",
                                                                    "back_stress2",
-                                                                   "back_stress3"}));
-  EXPECT_EQ(column_names<3>(everything).size(), 3u + 3u + 3u + 9u + 7u + 6u + 6u);
+                                                                   "back_stress3",
+                                                                   "conducted_heat",
+                                                                   "failed"}));
+  EXPECT_EQ(column_names<3>(everything).size(), 3u + 3u + 3u + 9u + 7u + 6u + 6u + 2u);
 }
 
 TEST(Columns, OfUnusedOptionsAreLeftOut) {
-  for (const std::string& name : column_names<3>({false, false})) {
-    EXPECT_EQ(name.find("affine"), std::string::npos);
-    EXPECT_EQ(name.find("back_stress"), std::string::npos);
+  for (const std::string& name : column_names<3>({false, false, false, false})) {
+    for (const char* unused : {"affine", "back_stress", "conducted_heat", "failed"}) {
+      EXPECT_EQ(name.find(unused), std::string::npos);
+    }
   }
   Particles<2> particles;
   particles.options = {false, false};
@@ -129,6 +132,7 @@ TEST(Columns, PackingKeepsEveryBit) {
   expect_packing_keeps_every_bit<2>({false, false}, 16 + 8 * (2 + 2 + 7 + 4));
   expect_packing_keeps_every_bit<2>({true, false}, 16 + 8 * (2 + 2 + 4 + 7 + 4));
   expect_packing_keeps_every_bit<3>({true, true}, 16 + 8 * (3 + 3 + 9 + 7 + 6 + 6));
+  expect_packing_keeps_every_bit<2>({false, false, true, true}, 20 + 8 * (2 + 2 + 7 + 4 + 1));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using namespace poreshock::test;
 constexpr double dt = 4.0e-10;
 
 /// Three unlike materials: the paper's aluminium, a copper with mixed hardening, a fluid.
-std::vector<MaterialParameters> parameters(PlasticHeat heat) {
+std::vector<MaterialParameters> parameters(PlasticHeat heat, double spall = 0.0) {
   MaterialParameters aluminium = reference::aluminium();
   MaterialParameters copper = aluminium;
   copper.density = 3000.0;  // so that the same random states suit it
@@ -31,6 +31,7 @@ std::vector<MaterialParameters> parameters(PlasticHeat heat) {
   fluid.gamma = 1.6;
   std::vector<MaterialParameters> all = {aluminium, copper, fluid};
   for (MaterialParameters& p : all) p.plastic_heat = heat;
+  all[0].spall = all[1].spall = spall;  // the fluid cannot fail
   return all;
 }
 
@@ -57,6 +58,7 @@ reference::PointState state_of(const Particles<Dim>& p, std::size_t i) {
                           p.plastic_work[i],
                           matrix<Dim>(tensor_of<Dim>(p.deviator, i))};
   if (p.options.back_stress) s.back_stress = matrix<Dim>(tensor_of<Dim>(p.back_stress, i));
+  s.failed = p.options.failed && p.failed[i] != 0;
   return s;
 }
 
@@ -99,16 +101,31 @@ void expect_same_state(const reference::PointState& expected, const reference::S
   EXPECT_NEAR(found.plastic_work, expected.plastic_work, 1e-13 * 1.0e4 + energy);
   EXPECT_LT((found.deviator - expected.deviator).norm(), stress);
   EXPECT_LT((found.back_stress - expected.back_stress).norm(), stress);
+  EXPECT_EQ(found.failed, expected.failed);
   EXPECT_NEAR(found.pressure, expected.pressure,
               1e-13 * solid.bulk() + solid.gamma * expected.density * energy);
   EXPECT_NEAR(found.viscous_pressure, expected.viscous_pressure,
               (1e-13 + 0.02 * strain_error) * (1e8 + expected.viscous_pressure));
 }
 
+/// Makes every fifth particle a failed one.
+template <int Dim>
+void fail_some(Particles<Dim>& p) {
+  p.options.failed = true;
+  resize(p, p.size());
+  for (std::size_t i = 0; i < p.size(); i += 5) {
+    p.failed[i] = 1;
+    for (auto& column : p.deviator) column[i] = 0.0;
+    for (auto& column : p.back_stress) {
+      if (!column.empty()) column[i] = 0.0;
+    }
+  }
+}
+
 template <int Dim>
 void compare_with_twin(Thermal thermal, bool kinematic, bool averaging, PlasticHeat heat,
-                       double strain, double strain_error) {
-  const std::vector<MaterialParameters> all = parameters(heat);
+                       double spall, double strain, double strain_error) {
+  const std::vector<MaterialParameters> all = parameters(heat, spall);
   const std::vector<Material> materials = make_materials(all);
   StressSettings<Dim> settings = settings_of<Dim>(thermal, averaging);
   settings.grid_velocity[Dim - 1] = 700.0;
@@ -117,10 +134,11 @@ void compare_with_twin(Thermal thermal, bool kinematic, bool averaging, PlasticH
   // Without the column the kinematic material may not take part.
   Points<Dim> points = random_points<Dim>(300, materials, kinematic, averaging, strain, dt, random);
   for (std::int32_t& m : points.particles.material) m = !kinematic && m == 1 ? 0 : m;
+  if (spall > 0.0) fail_some(points.particles);
 
   std::vector<reference::PointState> expected;
   double dt_limit = 1.0, viscous_heat = 0.0;
-  int yielding = 0, elastic = 0;
+  int yielding = 0, elastic = 0, failing = 0;
   for (std::size_t i = 0; i < 300; ++i) {
     const MaterialParameters& m = all[static_cast<std::size_t>(points.particles.material[i])];
     const reference::StressLaw law{reference::solid(m),
@@ -129,18 +147,22 @@ void compare_with_twin(Thermal thermal, bool kinematic, bool averaging, PlasticH
                                    0.5,
                                    1.7,
                                    settings.cell,
-                                   settings.cfl};
+                                   settings.cfl,
+                                   m.spall > 0.0 ? m.spall : 1e99};
     reference::PointState state = state_of<Dim>(points.particles, i);
     const double before = state.plastic_strain;
+    const bool failed = state.failed;
     const auto report =
         reference::advance_point(law, motion_of<Dim>(points, settings.grid_velocity, i), dt, state);
     (state.plastic_strain > before ? yielding : elastic) += 1;
+    failing += state.failed && !failed ? 1 : 0;
     dt_limit = std::min(dt_limit, report.dt_limit);
     viscous_heat += points.particles.mass[i] * report.viscous_heat;
     expected.push_back(state);
   }
   EXPECT_GT(yielding, 20);
   EXPECT_GT(elastic, 20);
+  EXPECT_TRUE(spall > 0.0 ? failing > 10 : failing == 0);
 
   const StressReport report = update<Dim>(materials, settings, dt, points);
   for (std::size_t i = 0; i < 300; ++i) {
@@ -161,7 +183,10 @@ void compare_all_modes(double strain, double strain_error) {
     for (const bool kinematic : {false, true}) {
       for (const bool averaging : {false, true}) {
         for (const PlasticHeat heat : {PlasticHeat::work, PlasticHeat::dissipation}) {
-          compare_with_twin<Dim>(thermal, kinematic, averaging, heat, strain, strain_error);
+          for (const double spall : {0.0, 1e9}) {
+            compare_with_twin<Dim>(thermal, kinematic, averaging, heat, spall, strain,
+                                   strain_error);
+          }
         }
       }
     }

@@ -80,6 +80,7 @@ gamma = 2.0
 cv = 880
 conductivity = 237
 T0 = 293.15
+spall = 1e9
 [[material]]
 name = "water"
 density = 1000
@@ -134,6 +135,8 @@ averaging = 0.25
 [viscosity]
 linear = 0.4
 quadratic = 1.5
+[conduction]
+on = true
 [time]
 end = 1e-7
 cfl = 0.5

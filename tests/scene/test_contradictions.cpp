@@ -141,6 +141,10 @@ TEST(Contradictions, SchemesThatCannotWork) {
   EXPECT_EQ(override_problems("transfer.update=musl"),
             "--set transfer.update=musl: transfer.update: found \"musl\", allowed \"usl\" unless "
             "transfer.velocity = \"flip\" and transfer.shape = \"linear\" or \"gimp\"");
+  EXPECT_EQ(
+      problems(small_scene(), {"transfer.preset=lineage", "conduction.on=true"}),
+      "--set conduction.on=true: conduction.on: found true, allowed with transfer.shape = "
+      "\"quadratic\" or \"cubic\": the slopes of the others jump where particles cross cells");
   EXPECT_EQ(problems(small_scene(), {"transfer.velocity=fmpm", "transfer.order=4", "time.cfl=0.6"}),
             "--set time.cfl=0.6: time.cfl: found 0.6, allowed up to 0.5 with transfer.velocity = "
             "\"fmpm\" of order 4");
@@ -163,6 +167,11 @@ TEST(Contradictions, Beat) {
 }
 
 TEST(Contradictions, OutputFields) {
+  // A dataset of physics that the scene does not ask for.
+  EXPECT_NE(override_problems("output.fields=[\"id\", \"failed\"]")
+                .find("output.fields: found \"failed\", allowed \"id\", \"grain\""),
+            std::string::npos);
+  EXPECT_EQ(problems(small_scene(), {"output.fields=[\"failed\"]", "material.0.spall=1e9"}), "");
   EXPECT_EQ(override_problems("output.fields=[\"id\", \"id\"]"),
             "--set output.fields=[\"id\", \"id\"]: output.fields: found \"id\", allowed each name "
             "once");

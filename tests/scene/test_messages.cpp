@@ -14,7 +14,7 @@ namespace {
 const std::string top_keys =
     "title, thermal, domain, boundary, material, sample, body, void, loading, body_force, "
     "transfer, "
-    "viscosity, time, output, morphology, profile, checkpoint";
+    "viscosity, conduction, time, output, morphology, profile, checkpoint";
 
 TEST(Messages, GoodSceneHasNone) {
   EXPECT_EQ(problems(small_scene()), "");

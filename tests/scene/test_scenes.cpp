@@ -37,6 +37,8 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.time.cfl, 0.5);
   EXPECT_EQ(scene.transfer, (Transfer{.half_length = 0.25}));
   EXPECT_EQ(scene.viscosity, Viscosity{});
+  EXPECT_FALSE(scene.conduction.on);
+  EXPECT_FALSE(conducts_heat(scene));
   EXPECT_EQ(scene.output.beat, 5e-9);
   EXPECT_EQ(scene.output.history, 5e-9);
   EXPECT_EQ(scene.output.fields.size(), 14u);
@@ -75,6 +77,11 @@ TEST(Scenes, EveryKeyOf2D) {
                                       .damping = 1e5,
                                       .averaging = 0.25,
                                       .half_length = 0.5 / 3.0}));
+  EXPECT_EQ(scene.materials[0].spall, 1e9);
+  EXPECT_EQ(scene.materials[1].spall, 0.0);
+  EXPECT_TRUE(can_fail(scene));
+  EXPECT_TRUE(scene.conduction.on);
+  EXPECT_TRUE(conducts_heat(scene));
   EXPECT_EQ(scene.time.max_steps, 1000000000000);
   EXPECT_EQ(scene.output.fields, (std::vector<std::string>{"stress", "id"}));
   EXPECT_EQ(scene.output.precision, Precision::single_precision);
@@ -98,6 +105,20 @@ TEST(Scenes, EveryKeyOf3D) {
 TEST(Scenes, OneLateralKindServesAllAxesThatAreNotPeriodic) {
   const Scene scene = parse(rich_3d, {"boundary.lateral=free"});
   EXPECT_EQ(scene.boundary.lateral, (std::array<SideKind, 2>{SideKind::periodic, SideKind::free}));
+}
+
+TEST(Scenes, DatasetsFollowThePhysics) {
+  const auto count = [](const std::vector<std::string>& overrides) {
+    return parse(small_scene(), overrides).output.fields.size();
+  };
+  const std::string spall = "material.0.spall=1e9", on = "conduction.on=true",
+                    conducts = "material.0.conductivity=1", paper = "thermal=paper";
+  EXPECT_EQ(count({spall}), 15u);
+  EXPECT_EQ(count({on, conducts}), 14u);
+  EXPECT_EQ(count({on, paper}), 14u);
+  EXPECT_EQ(count({on, conducts, paper}), 15u);
+  EXPECT_EQ(count({on, conducts, paper, spall}), 16u);
+  EXPECT_EQ(parse(small_scene(), {spall}).output.fields.back(), "failed");
 }
 
 TEST(Scenes, RoundTrips) {

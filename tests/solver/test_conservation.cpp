@@ -58,7 +58,11 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"loading.velocity=0.0",
                                  "boundary.low={kind='wall', velocity=1100.0}"},
         std::vector<std::string>{"body_force.acceleration=[1e9, -1e9]"},
-        std::vector<std::string>{"domain.periodic=false", "boundary.lateral=symmetry"}));
+        std::vector<std::string>{"domain.periodic=false", "boundary.lateral=symmetry"},
+        std::vector<std::string>{"conduction.on=true", "material.0.conductivity=2e4"},
+        std::vector<std::string>{"conduction.on=true", "material.0.conductivity=2e4",
+                                 "thermal=paper", "transfer.shape=quadratic",
+                                 "material.0.kinematic_share=0.5"}));
 
 TEST(Conservation, LedgerShowsWhatMuslGains) {
   // Its stress power is not that of the nodal forces, and the ledger hides nothing of it.

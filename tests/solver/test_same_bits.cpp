@@ -67,6 +67,15 @@ TEST(SameBits, LinearHats) {
       200);
 }
 
+const std::vector<std::string> conduction = {"conduction.on=true", "material.0.conductivity=2e4"};
+
+TEST(SameBits, HeatConduction) {
+  expect_same_on_all_ranks<2>(scene_of(porous_text(), conduction), steps);
+  std::vector<std::string> paper = conduction;
+  paper.insert(paper.end(), {"thermal=paper", "transfer.shape=quadratic"});
+  expect_same_on_all_ranks<2>(scene_of(porous_text(), paper), steps);
+}
+
 TEST(SameBits, WallsAllAroundAndMovingPiston) {
   Scene scene = scene_of(porous_text(), {"domain.periodic=false", "boundary.lateral=wall",
                                          "boundary.low={kind='wall', velocity=300.0}"});
@@ -155,6 +164,14 @@ TEST(SameBits, RestartMidShockOnOtherRanks) {
     EXPECT_EQ(checksum_with_restart<2>(scene, all, readers, 150, steps), straight)
         << all << " -> " << readers << " ranks";
   }
+}
+
+TEST(SameBits, RestartWithHeatConduction) {
+  std::vector<std::string> paper = conduction;
+  paper.push_back("thermal=paper");
+  const Scene scene = scene_of(porous_text(), paper);
+  EXPECT_EQ(checksum_with_restart<2>(scene, size(MPI_COMM_WORLD), 1, 100, 200),
+            checksum_after<2>(scene, 1, 200));
 }
 
 TEST(SameBits, RestartIn3D) {

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "support/reference_eos.hpp"
 
@@ -20,6 +21,7 @@ struct StressLaw {
   double quadratic = 2.25;
   double cell = 0.0;  ///< m
   double cfl = 0.35;
+  double spall = std::numeric_limits<double>::infinity();  ///< Pa, tension
 };
 
 /// State of one particle.
@@ -32,6 +34,7 @@ struct PointState {
   double plastic_work = 0.0;  ///< J/kg, the part that is heat
   Eigen::Matrix3d deviator = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d back_stress = Eigen::Matrix3d::Zero();
+  bool failed = false;
 };
 
 /// What the grid tells the particle. With averaging the dilatations are not the gradients' own.
@@ -100,6 +103,17 @@ inline double stored_energy(const StressLaw& law, const PointState& p) {
   return stored;
 }
 
+/// Takes the strength away: elastic energy stays in the energy, tension and shear vanish.
+inline void fail(const StressLaw& law, double v, PointReport& report, PointState& p) {
+  p.failed = true;
+  p.deviator.setZero();
+  p.back_stress.setZero();
+  if (law.conserving) p.pressure = pressure(law.solid, v, p.energy);
+  if (p.pressure >= 0.0) return;
+  p.pressure = 0.0;
+  report.sound_speed = std::sqrt(law.solid.c0 * law.solid.c0 + 4.0 / 3.0 * law.solid.shear * v);
+}
+
 /// Advances one particle by dt.
 inline PointReport advance_point(const StressLaw& law, const PointMotion& motion, double dt,
                                  PointState& p) {
@@ -121,7 +135,7 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
   const Eigen::Matrix3d& R = stretch.rotation;
   const Eigen::Matrix3d start = R * p.deviator * R.transpose();
   p.back_stress = (R * p.back_stress * R.transpose()).eval();
-  p.deviator = start + 2.0 * m.shear *
+  p.deviator = start + 2.0 * (p.failed ? 0.0 : m.shear) *
                            (stretch.logarithm -
                             stretch.logarithm.trace() / 3.0 * Eigen::Matrix3d::Identity());
   const double heat_per_volume = return_to_yield(law, start, p);
@@ -137,6 +151,7 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
     const double bulk2 = -v * v * curve_slope(m, v) + m.gamma * p.plastic_work;
     report.sound_speed = std::sqrt(bulk2 + 4.0 / 3.0 * m.shear * v);
   }
+  if (p.failed || p.pressure < -law.spall) fail(law, v, report, p);
   const double closing = std::max(0.0, -end) * law.cell;
   const double speed = report.sound_speed;
   p.viscous_pressure =

@@ -19,6 +19,7 @@ enum class PhaseName {
   grid_update,
   grid_to_particles,
   remap,
+  conduction,
   stress,
   time_step,
   migrate,

@@ -4,6 +4,7 @@
 // models are listed once, in the variant `Material`.
 
 #include <concepts>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -32,6 +33,7 @@ struct MaterialParameters {
   double cv = 0.0;            ///< J/(kg K)
   double conductivity = 0.0;  ///< W/(m K)
   double T0 = 300.0;          ///< K
+  double spall = 0.0;         ///< Pa, tension at which the material fails; 0 = never
 
   bool operator==(const MaterialParameters&) const = default;
 };
@@ -42,6 +44,8 @@ struct J2MieGruneisen {
   J2Plasticity strength;
   TemperatureCurve temperature;
   PlasticHeat plastic_heat = PlasticHeat::work;
+  double conductivity = 0.0;                               ///< W/(m K)
+  double spall = std::numeric_limits<double>::infinity();  ///< Pa, infinite where it cannot fail
 
   /// Energy per mass stored in the deviator, s:s/(4 G rho), J/kg; zero for a fluid.
   double deviatoric_energy(double deviator_square, double density) const {
@@ -61,6 +65,8 @@ concept MaterialModel = requires(const T& m, double x) {
   { m.deviatoric_energy(x, x) } -> std::convertible_to<double>;
   { m.back_stress_energy(x, x) } -> std::convertible_to<double>;
   { m.eos.density } -> std::convertible_to<double>;
+  { m.eos.cv } -> std::convertible_to<double>;
+  { m.conductivity } -> std::convertible_to<double>;
 };
 
 using Material = std::variant<J2MieGruneisen>;
@@ -74,12 +80,15 @@ struct ThermalState {
   double density = 0.0;             ///< kg/m^3
   double internal_energy = 0.0;     ///< J/kg
   double plastic_work = 0.0;        ///< J/kg
+  double conducted_heat = 0.0;      ///< J/kg, paper mode only
   double deviator_square = 0.0;     ///< s:s, Pa^2
   double back_stress_square = 0.0;  ///< Pa^2
+  bool failed = false;              ///< spalled: what has opened is not solid
 };
 
-/// Temperature, K. paper: T_r(V) + W_p/c_v (eqs 6, 7); conserving: T_r(V) + (E - E_r(V))/c_v with
-/// the elastic deviatoric energy taken off E. Not clamped.
+/// Temperature, K. paper: T_r(V) + (W_p + conducted heat)/c_v (eqs 6, 7); conserving: T_r(V) +
+/// (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. A failed particle that has
+/// opened has the volume of its solid without load. Not clamped.
 double temperature(const Material& material, Thermal thermal, const ThermalState& state);
 
 /// Longitudinal sound speed of the undisturbed material, m/s.
@@ -87,5 +96,14 @@ double longitudinal_sound_speed(const Material& material);
 
 /// Density of the undisturbed material, kg/m^3.
 double initial_density(const Material& material);
+
+/// What conduction of heat needs to know of a material.
+struct HeatProperties {
+  double density;       ///< kg/m^3, undisturbed
+  double cv;            ///< J/(kg K)
+  double conductivity;  ///< W/(m K)
+};
+
+HeatProperties heat_properties(const Material& material);
 
 }  // namespace poreshock

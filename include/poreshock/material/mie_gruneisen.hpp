@@ -3,6 +3,7 @@
 // Grueneisen coefficient; in expansion the reference is linear in the specific volume.
 // eta = 1 - V/V0 = 1 - rho0/rho. Compression positive.
 
+#include <cmath>
 #include <vector>
 
 namespace poreshock {
@@ -68,11 +69,20 @@ inline EquationOfState paper_state(const MieGruneisen& eos, double density, doub
           eos.density * (v * v) * r.pressure_slope + eos.gamma * plastic_work};
 }
 
+/// Compression eta at which the branch of expansion bears no pressure: K eta (1 - c eta) + gamma
+/// rho0 heat = 0, where c is 1 + gamma/2 when `heat` (J/kg) is the internal energy and 1 when it is
+/// the plastic work of the paper's model.
+inline double unloaded_eta(const MieGruneisen& eos, double c, double heat) {
+  const double square = 1.0 + 4.0 * c * (eos.gamma * eos.density * heat / eos.bulk);
+  return (1.0 - std::sqrt(square > 0.0 ? square : 0.0)) / (2.0 * c);
+}
+
 /// Temperature along the reference curve, T_r(eta), tabulated (paper eq 6; T V^gamma constant in
 /// expansion). Between the nodes a cubic Hermite polynomial with the exact slope: error < 1e-6 K.
 struct TemperatureCurve {
   double first = 0.0, step = 0.0;    ///< eta of node 0, spacing
   std::vector<double> value, slope;  ///< K, K per unit eta
+  double doubling = 1.0;  ///< 2^-gamma, the change of T_r when an expanded volume doubles
 };
 
 /// The table of a material; made once.
@@ -80,6 +90,6 @@ TemperatureCurve make_temperature_curve(const MieGruneisen& eos);
 
 /// T_r at eta, K. Outside the table it continues by the tangent at its end (compression) or exactly
 /// (expansion).
-double reference_temperature(const MieGruneisen& eos, const TemperatureCurve& curve, double eta);
+double reference_temperature(const TemperatureCurve& curve, double eta);
 
 }  // namespace poreshock

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "poreshock/core/tensor.hpp"
@@ -27,9 +26,6 @@ struct SnapshotInput {
   double time = 0.0;                        ///< s
   Vector<Dim> shift = Vector<Dim>::Zero();  ///< m, added to the positions
 };
-
-/// Names a scene may list in output.fields; `id` and `position` are always written.
-std::vector<std::string_view> snapshot_fields();
 
 /// File name of a snapshot in its folder: snapshot_NNNNNN.h5.
 std::string snapshot_name(std::int64_t record);

@@ -14,8 +14,10 @@ namespace poreshock {
 
 /// Which optional columns a scene needs; columns it does not need stay empty.
 struct ParticleOptions {
-  bool affine = true;        ///< APIC
-  bool back_stress = false;  ///< kinematic hardening
+  bool affine = true;           ///< APIC
+  bool back_stress = false;     ///< kinematic hardening
+  bool conducted_heat = false;  ///< heat conduction in paper mode
+  bool failed = false;          ///< some material has a spall strength
 };
 
 /// State of the particles of one rank. All columns have the same length, but those not in use: 0.
@@ -37,6 +39,8 @@ struct Particles {
   std::vector<double> plastic_work;                               ///< J/kg, the part that is heat
   std::array<std::vector<double>, symmetric_size<Dim>> deviator;  ///< Pa, tension positive
   std::array<std::vector<double>, symmetric_size<Dim>> back_stress;  ///< Pa
+  std::vector<double> conducted_heat;  ///< J/kg, received by conduction; part of internal_energy
+  std::vector<std::int32_t> failed;    ///< 1 once the tension has exceeded the spall strength
 
   std::size_t size() const { return id.size(); }
 };
@@ -63,6 +67,8 @@ void for_each_column(ParticlesType& particles, Visitor&& visit) {
   visit("plastic_work", -1, particles.plastic_work);
   each("deviator", particles.deviator);
   if (particles.options.back_stress) each("back_stress", particles.back_stress);
+  if (particles.options.conducted_heat) visit("conducted_heat", -1, particles.conducted_heat);
+  if (particles.options.failed) visit("failed", -1, particles.failed);
 }
 
 /// Sets the number of particles; new ones are zero. Not collective.

@@ -32,7 +32,8 @@ struct StressReport {
 
 /// Advances the state over dt (numerics: incremental polar decomposition, radial return, energy
 /// from the grid's stress power with the stress of the start of the step, so that the sum of
-/// kinetic and internal energy closes). Not collective.
+/// kinetic and internal energy closes). Beyond its spall strength a particle fails for good: from
+/// then on it bears neither tension nor shear. Not collective.
 template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                    const StepData<Dim>& step, double dt, Particles<Dim>& particles,

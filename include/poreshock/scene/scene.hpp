@@ -2,6 +2,7 @@
 // A scene: everything a run is told, as plain data in SI units. Read and checked in read_scene.
 // Arrays of three hold x, y(, z); in 2-D the third entry is unused. The shock axis is the last one.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -108,6 +109,11 @@ struct Viscosity {
   bool operator==(const Viscosity&) const = default;
 };
 
+struct Conduction {
+  bool on = false;  ///< heat flows between particles
+  bool operator==(const Conduction&) const = default;
+};
+
 struct TimeControl {
   double end = 0.0;  ///< s
   double cfl = 0.5;
@@ -168,6 +174,7 @@ struct Scene {
   Triple body_force{};  ///< m/s^2
   Transfer transfer;
   Viscosity viscosity;
+  Conduction conduction;
   TimeControl time;
   Output output;
   Morphology morphology;
@@ -175,5 +182,18 @@ struct Scene {
   Checkpoint checkpoint;
   bool operator==(const Scene&) const = default;
 };
+
+/// True when heat conduction is on and some material conducts.
+inline bool conducts_heat(const Scene& scene) {
+  return scene.conduction.on &&
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const MaterialParameters& m) { return m.conductivity > 0.0; });
+}
+
+/// True when some material has a spall strength.
+inline bool can_fail(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const MaterialParameters& m) { return m.spall > 0.0; });
+}
 
 }  // namespace poreshock

@@ -25,6 +25,7 @@ struct Ledger {
   NodeLedger nodes;
   Int128 viscous_heat = 0;
   Int128 transfer_heat = 0;  ///< filter heat of grid to particles
+  Int128 conduction = 0;     ///< heat gained by conduction: round-off
   Int128 escaped_energy = 0;
   Int128 escaped_mass = 0;  ///< quanta of mass, see mass_quantum
   std::array<Int128, 3> escaped_momentum{};

@@ -10,6 +10,7 @@
 #include "poreshock/output/checkpoint.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
+#include "poreshock/physics/heat.hpp"
 #include "poreshock/physics/stress.hpp"
 #include "poreshock/sample/fill.hpp"
 #include "poreshock/solver/ledger.hpp"
@@ -36,6 +37,9 @@ struct Simulation {
   StepData<Dim> step_data;
   std::unique_ptr<SlabGrid> grid;
   std::unique_ptr<SlabGrid> averages;  ///< only with averaged dilatation
+  std::unique_ptr<SlabGrid> heat;      ///< only with heat conduction
+  HeatFlow<Dim> heat_flow;             ///< empty without heat conduction
+  double conduction_limit = 0.0;       ///< s, infinite without heat conduction
   PhaseTable phases;
   SampleReport sample;
 };
@@ -49,8 +53,9 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator);
 template <int Dim>
 Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm communicator);
 
-/// Advances the state by dt: particles to grid, momentum, boundaries, grid to particles, stress.
-/// Afterwards the clock holds the stable next step of this rank's particles. Collective.
+/// Advances the state by dt: heat conduction, particles to grid, momentum, boundaries, grid to
+/// particles, stress. Afterwards the clock holds the stable next step of this rank's particles.
+/// Collective.
 template <int Dim>
 void advance(Simulation<Dim>& sim, double dt);
 

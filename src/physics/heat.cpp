@@ -1,0 +1,185 @@
+#include "poreshock/physics/heat.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "poreshock/particles/derived.hpp"
+#include "poreshock/transfer/sweep.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// Upper bounds of the sum over the nodes of (dN/dx)^2/N along one axis, per cell^2: exactly 6 at
+/// the edge of a stencil cell for the quadratic spline, 3.137 for the cubic one.
+constexpr double quadratic_spread = 6.0;
+constexpr double cubic_spread = 3.14;
+
+/// Calls visit(n, N, grad N) for all nodes of a stencil; gradients are per cell.
+template <int Dim, class Spline, class Visit>
+inline void for_each_weight(const Stencil<Dim, Spline>& s, Visit&& visit) {
+  constexpr int w = Spline::width;
+  const auto& x = s.axis[0];
+  const auto& y = s.axis[1];
+  for (int j = 0; j < w; ++j) {
+    for (int i = 0; i < w; ++i) {
+      const double value = x.value[i] * y.value[j];
+      const double along_x = x.slope[i] * y.value[j], along_y = x.value[i] * y.slope[j];
+      if constexpr (Dim == 2) {
+        visit(j * w + i, value, std::array<double, 2>{along_x, along_y});
+      } else {
+        const auto& z = s.axis[2];
+        for (int k = 0; k < w; ++k) {
+          visit((k * w + j) * w + i, value * z.value[k],
+                std::array<double, 3>{along_x * z.value[k], along_y * z.value[k],
+                                      value * z.slope[k]});
+        }
+      }
+    }
+  }
+}
+
+/// Turns the energies of all nodes into temperatures; empty nodes stay zero. Fills the periodic
+/// images.
+void divide_by_capacity(SlabGrid& grid) {
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    Lanes* nodes = grid.row(row);
+    for (int i = 0; i < grid.shape().row_size; ++i) {
+      const double capacity = nodes[i][HeatLane::capacity];
+      if (capacity > 0.0) nodes[i] = nodes[i] / capacity;
+    }
+  }
+  grid.fill_periodic_images();
+}
+
+/// Nodal temperatures from the particles. Collective.
+template <int Dim, class Spline>
+void collect_temperature(const std::vector<Material>& materials,
+                         const std::vector<HeatProperties>& properties, Thermal thermal,
+                         const CellOrder& cells, const Particles<Dim>& particles, SlabGrid& grid) {
+  scatter<Dim>(
+      Spline{}, particles, cells,
+      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
+        const auto material = static_cast<std::size_t>(particles.material[p]);
+        const double capacity = particles.mass[p] * properties[material].cv;
+        const double T = particle_temperature<Dim>(particles, materials, thermal, p);
+        const Lanes sum{capacity, capacity * T};
+        for_each_weight<Dim, Spline>(
+            stencil, [&](int n, double value, const auto&) { sums[n] += value * sum; });
+      },
+      grid);
+  grid.exchange();
+  divide_by_capacity(grid);
+}
+
+/// Gradient of the nodal temperature at the particles, and their excess over it.
+template <int Dim, class Spline>
+void take_gradient(const std::vector<Material>& materials, Thermal thermal, const CellOrder& cells,
+                   const SlabGrid& grid, const Particles<Dim>& particles, HeatFlow<Dim>& scratch) {
+  const double inverse_cell = 1.0 / grid.shape().cell;
+  for (auto& column : scratch.gradient) column.resize(particles.size());
+  scratch.excess.resize(particles.size());
+  gather<Dim>(
+      Spline{}, particles, cells, grid,
+      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+        std::array<double, Dim> sum{};
+        double mean = 0.0;
+        for_each_weight<Dim, Spline>(stencil, [&](int n, double value, const auto& gradient) {
+          const double T = nodes[n][HeatLane::temperature];
+          mean += value * T;
+          for (int a = 0; a < Dim; ++a) sum[a] += gradient[a] * T;
+        });
+        for (int a = 0; a < Dim; ++a) scratch.gradient[a][p] = inverse_cell * sum[a];
+        scratch.excess[p] = particle_temperature<Dim>(particles, materials, thermal, p) - mean;
+      });
+}
+
+/// Rise of the nodal temperatures by what particles hand over; their excess becomes the share that
+/// they hand over. Collective.
+template <int Dim, class Spline>
+void collect_heat(const std::vector<HeatProperties>& properties, const CellOrder& cells, double dt,
+                  const Particles<Dim>& particles, HeatFlow<Dim>& scratch, SlabGrid& grid) {
+  const double inverse_cell = 1.0 / grid.shape().cell;
+  const double excess_rate = 2.0 * Spline::inverse_inertia * (inverse_cell * inverse_cell);
+  scatter<Dim>(
+      Spline{}, particles, cells,
+      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
+        const HeatProperties& m = properties[static_cast<std::size_t>(particles.material[p])];
+        const double density = particles.density[p] > m.density ? particles.density[p] : m.density;
+        const double conductance = dt * m.conductivity * (particles.mass[p] / density);
+        const double capacity = particles.mass[p] * m.cv;
+        scratch.excess[p] *= excess_rate * conductance / capacity;
+        std::array<double, Dim> flow;
+        for (int a = 0; a < Dim; ++a) {
+          flow[a] = conductance * inverse_cell * scratch.gradient[a][p];
+        }
+        for_each_weight<Dim, Spline>(stencil, [&](int n, double value, const auto& gradient) {
+          double heat = capacity * value * scratch.excess[p];
+          for (int a = 0; a < Dim; ++a) heat -= flow[a] * gradient[a];
+          sums[n] += Lanes{capacity * value, heat};
+        });
+      },
+      grid);
+  grid.exchange();
+  divide_by_capacity(grid);
+}
+
+/// Particles take their share of the rise and lose what they handed over.
+template <int Dim, class Spline>
+void take_heat(const std::vector<HeatProperties>& properties, const CellOrder& cells,
+               double inverse_quantum, const SlabGrid& grid, const HeatFlow<Dim>& scratch,
+               Particles<Dim>& particles, Int128& gained) {
+  const bool separate = particles.options.conducted_heat;
+  Int128 sum = 0;
+  gather<Dim>(Spline{}, particles, cells, grid,
+              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+                double rise = -scratch.excess[p];
+                for_each_weight<Dim, Spline>(stencil, [&](int n, double value, const auto&) {
+                  rise += value * nodes[n][HeatLane::temperature];
+                });
+                const double heat =
+                    properties[static_cast<std::size_t>(particles.material[p])].cv * rise;
+                particles.internal_energy[p] += heat;
+                if (separate) particles.conducted_heat[p] += heat;
+                sum += quantise(particles.mass[p] * heat, inverse_quantum);
+              });
+  gained += sum;
+}
+
+}  // namespace
+
+template <int Dim>
+void conduct_heat(const std::vector<Material>& materials, Thermal thermal, ShapeFunction shape,
+                  const CellOrder& cells, double dt, double inverse_quantum, SlabGrid& grid,
+                  HeatFlow<Dim>& scratch, Particles<Dim>& particles, Int128& gained) {
+  std::vector<HeatProperties> properties;
+  for (const Material& m : materials) properties.push_back(heat_properties(m));
+  const auto run = [&]<class Spline>(Spline) {
+    collect_temperature<Dim, Spline>(materials, properties, thermal, cells, particles, grid);
+    take_gradient<Dim, Spline>(materials, thermal, cells, grid, particles, scratch);
+    collect_heat<Dim, Spline>(properties, cells, dt, particles, scratch, grid);
+    take_heat<Dim, Spline>(properties, cells, inverse_quantum, grid, scratch, particles, gained);
+  };
+  shape == ShapeFunction::cubic ? run(CubicSpline{}) : run(QuadraticSpline{});
+}
+
+double conduction_limit(const std::vector<Material>& materials, ShapeFunction shape, int dimension,
+                        double cell) {
+  double diffusivity = 0.0;
+  for (const Material& material : materials) {
+    const HeatProperties m = heat_properties(material);
+    diffusivity = std::max(diffusivity, m.conductivity / (m.density * m.cv));
+  }
+  if (!(diffusivity > 0.0)) return std::numeric_limits<double>::infinity();
+  const double spread = shape == ShapeFunction::cubic ? cubic_spread : quadratic_spread;
+  return cell * cell / (dimension * spread * diffusivity);
+}
+
+template void conduct_heat<2>(const std::vector<Material>&, Thermal, ShapeFunction,
+                              const CellOrder&, double, double, SlabGrid&, HeatFlow<2>&,
+                              Particles<2>&, Int128&);
+template void conduct_heat<3>(const std::vector<Material>&, Thermal, ShapeFunction,
+                              const CellOrder&, double, double, SlabGrid&, HeatFlow<3>&,
+                              Particles<3>&, Int128&);
+
+}  // namespace poreshock
