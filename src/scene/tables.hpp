@@ -9,6 +9,7 @@
 #include "dataset_names.hpp"
 #include "poreshock/scene/scene.hpp"
 #include "rules.hpp"
+#include "transfer_table.hpp"
 
 namespace poreshock::scene_text {
 
@@ -180,37 +181,6 @@ template <typename Visitor>
 void visit_body_force(Visitor& visitor, Scene& scene) {
   visitor.vector("acceleration", scene.body_force, scene.dimension,
                  {any_number, "m/s^2", "of all material"});
-}
-
-template <typename Visitor>
-void visit_transfer(Visitor& visitor, Transfer& transfer) {
-  const Names<ShapeFunction> shapes{{"linear", ShapeFunction::linear},
-                                    {"gimp", ShapeFunction::gimp},
-                                    {"quadratic", ShapeFunction::quadratic},
-                                    {"cubic", ShapeFunction::cubic}};
-  const Names<VelocityTransfer> transfers{{"pic", VelocityTransfer::pic},
-                                          {"flip", VelocityTransfer::flip},
-                                          {"apic", VelocityTransfer::apic},
-                                          {"fmpm", VelocityTransfer::fmpm}};
-  const Names<VelocityUpdate> updates{{"usl", VelocityUpdate::usl}, {"musl", VelocityUpdate::musl}};
-  bool lineage = false;
-  const Names<bool> presets{{"none", false}, {"lineage", true}};
-  choice(visitor, "preset", lineage, presets,
-         {"lineage: gimp, flip, usl, no averaging by default, the common scheme of 2008-2010"});
-  if (lineage) {
-    visitor.fallback(transfer.shape, ShapeFunction::gimp);
-    visitor.fallback(transfer.velocity, VelocityTransfer::flip);
-  }
-  choice(visitor, "shape", transfer.shape, shapes,
-         {"between particles and grid: hat, uniform GIMP, quadratic or cubic B-spline"});
-  choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
-  visitor.number("damping", transfer.damping,
-                 {not_negative, "1/s", "of FLIP velocity noise; with flip only"});
-  integer(visitor, "order", transfer.order,
-          {{.low = 2.0, .high = 8.0}, "", "of the filter of fmpm; higher filters less"});
-  choice(visitor, "update", transfer.update, updates,
-         {"density and rotation from the grid velocity, or from the particles' (musl, flip only)"});
-  visitor.number("averaging", transfer.averaging, {share, "", "share of the averaged dilatation"});
 }
 
 template <typename Visitor>

@@ -6,7 +6,8 @@ from program import ENVIRONMENT, MPIRUN, POROUS, PROGRAM, ProgramTest
 
 class DiskFull(ProgramTest):
     def test_checkpoint_that_does_not_fit(self):
-        self.write("porous.toml", POROUS)
+        # Snapshots in single precision, so that a checkpoint is the largest file.
+        self.write("porous.toml", POROUS.replace("[output]\n", "[output]\nprecision = \"single\"\n"))
         self.run_scene("porous.toml", "room", "--set", "time.max_steps=30")
         needed = (self.folder / "room/checkpoint_000000025.h5").stat().st_size
         snapshot = (self.folder / "room/snapshot_000000.h5").stat().st_size
@@ -21,7 +22,8 @@ class DiskFull(ProgramTest):
                                       r"larger than the file size limit \(ulimit -f\)\n")
         self.assertEqual(done.stdout, "")
         self.assertEqual(sorted(path.name for path in (self.folder / "full").iterdir()),
-                         ["history.csv", "morphology_000000.h5", "scene.toml", "snapshot_000000.h5", "snapshots.xdmf"])
+                         ["history.csv", "morphology_000000.h5", "profile_000000.h5", "scene.toml", "snapshot_000000.h5",
+                          "snapshots.xdmf"])
         for name in ("snapshot_000000.h5", "scene.toml"):
             info = self.succeed("info", f"full/{name}").output
             self.assertNotIn("damaged", info)

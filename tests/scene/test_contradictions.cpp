@@ -122,15 +122,15 @@ TEST(Contradictions, Bodies) {
 }
 
 TEST(Contradictions, DampingBelongsToFlip) {
-  EXPECT_EQ(override_problems("transfer.damping=1e5"),
+  EXPECT_EQ(problems(small_scene(), {"transfer.velocity=apic", "transfer.damping=1e5"}),
             "--set transfer.damping=1e5: transfer.damping: found 100000 1/s, allowed 0 unless "
             "transfer.velocity = \"flip\"");
   EXPECT_EQ(problems(small_scene(), {"transfer.damping=1e5", "transfer.velocity=flip"}), "");
 }
 
 TEST(Contradictions, SchemesThatCannotWork) {
-  EXPECT_EQ(override_problems("transfer.shape=linear"),
-            "--set transfer.shape=linear: transfer.velocity: found a transfer that needs "
+  EXPECT_EQ(problems(small_scene(), {"transfer.shape=linear", "transfer.velocity=apic"}),
+            "--set transfer.velocity=apic: transfer.velocity: found a transfer that needs "
             "B-splines, allowed \"flip\" with transfer.shape = \"linear\"");
   EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage"}), "");
   EXPECT_EQ(problems(small_scene(), {"transfer.shape=gimp", "transfer.velocity=fmpm"}), "");
@@ -138,7 +138,7 @@ TEST(Contradictions, SchemesThatCannotWork) {
             "--set transfer.averaging=0.6: transfer.averaging: found 0.6, allowed up to 0.5 with "
             "transfer.shape = \"linear\" or \"gimp\": more is unstable when material crosses "
             "cells");
-  EXPECT_EQ(override_problems("transfer.update=musl"),
+  EXPECT_EQ(problems(small_scene(), {"transfer.averaging=0.0", "transfer.update=musl"}),
             "--set transfer.update=musl: transfer.update: found \"musl\", allowed \"usl\" unless "
             "transfer.velocity = \"flip\" and transfer.shape = \"linear\" or \"gimp\"");
   EXPECT_EQ(

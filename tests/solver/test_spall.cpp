@@ -42,12 +42,13 @@ Simulation<2> strip_with_wave(double cell, double spall) {
   const std::string cells = text;
   std::snprintf(text, sizeof text, "domain.size=[%g, 1.28e-3]", 4.0 * cell);
   const std::string size = text;
-  Simulation<2> sim = start<2>(
-      scene_of(porous_text(), {cells, size, "sample.kind=solid", "sample.height=1.2e-3",
+  Simulation<2> sim =
+      start<2>(plain_scene_of(porous_text(),
+                              {cells, size, "sample.kind=solid", "sample.height=1.2e-3",
                                "boundary.low=free", "loading.velocity=0.0", "material.0.young=0.0",
                                "material.0.yield=0.0", "material.0.hardening=0.0",
                                "material.0.spall=" + std::to_string(spall), "time.end=1e-6"}),
-      MPI_COMM_WORLD);
+               MPI_COMM_WORLD);
   Particles<2>& p = sim.particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     // P = rho c u; on the isentrope E = P^2/(2 rho K) to the order that matters here.
@@ -154,7 +155,7 @@ end = 1e-6
 class SpallEnergy : public ::testing::TestWithParam<std::vector<std::string>> {};
 
 TEST_P(SpallEnergy, Closes) {
-  Simulation<2> sim = start<2>(scene_of(flyer_text(), GetParam()), MPI_COMM_WORLD);
+  Simulation<2> sim = start<2>(plain_scene_of(flyer_text(), GetParam()), MPI_COMM_WORLD);
   const auto total = [&] {
     return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
   };
@@ -181,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Spall, ScabFliesAway) {
   // The target breaks in the middle: its lower half leaves with the momentum it trapped, and the
   // temperatures of what opened stay those of a solid.
-  Simulation<2> sim = start<2>(scene_of(flyer_text()), MPI_COMM_WORLD);
+  Simulation<2> sim = start<2>(plain_scene_of(flyer_text()), MPI_COMM_WORLD);
   advance_to(100000, 0, sim);
   std::vector<double> T;
   EXPECT_EQ(derive_field<2>("temperature", sim.particles, sim.materials, Thermal::conserving, T),
@@ -193,7 +194,7 @@ TEST(Spall, ScabFliesAway) {
 }
 
 TEST(Spall, SameBitsOnAnyRanksAndAfterARestart) {
-  const Scene scene = scene_of(flyer_text());
+  const Scene scene = plain_scene_of(flyer_text());
   const auto run = [&](int ranks) {
     std::uint64_t bits = 0;
     on_ranks(ranks, [&](MPI_Comm part) {
@@ -217,7 +218,7 @@ TEST(Spall, SameBitsOnAnyRanksAndAfterARestart) {
 
 TEST(Spall, CostsNothingWithoutAStrength) {
   const Simulation<2> sim =
-      start<2>(scene_of(flyer_text(), {"material.0.spall=0.0"}), MPI_COMM_WORLD);
+      start<2>(plain_scene_of(flyer_text(), {"material.0.spall=0.0"}), MPI_COMM_WORLD);
   EXPECT_FALSE(sim.particles.options.failed);
   EXPECT_EQ(sim.particles.failed.capacity(), 0u);
 }

@@ -54,6 +54,18 @@ inline Scene scene_of(const std::string& text, const std::vector<std::string>& o
   return parse_scene(text, "test", overrides);
 }
 
+/// A scene whose scheme is APIC without averaging, with the linear viscosity 0.6 where the text has
+/// none, unless the overrides say otherwise; FLIP is then undamped. The default scheme is measured
+/// by plane impacts and porous samples.
+inline Scene plain_scene_of(const std::string& text,
+                            const std::vector<std::string>& overrides = {}) {
+  std::string scheme = "\n[transfer]\nvelocity = \"apic\"\naveraging = 0.0\ndamping = 0.0\n";
+  if (text.find("[viscosity]") == std::string::npos) {
+    scheme += "[viscosity]\nlinear = 0.6\nquadratic = 2.25\n";
+  }
+  return scene_of(text + scheme, overrides);
+}
+
 /// Runs to `step`, with a forced rebalance every `rebalance_every` steps (0 = never). Collective.
 template <int Dim>
 void advance_to(std::int64_t step, std::int64_t rebalance_every, Simulation<Dim>& sim) {

@@ -75,10 +75,11 @@ struct Stop {
 Stop stop_of_shell(double stop, int cells_across, const std::vector<std::string>& overrides) {
   const double cell = (shell_outer - shell_inner) / cells_across;
   const double size = std::ceil(10.25e-3 / cell) * cell;
-  Simulation<2> sim = start<2>(scene_of(ring_text(size, cell, shell_inner, shell_outer,
-                                                  "[time]\nend = 40e-6\n[output]\nbeat = 1e-6\n"),
-                                        overrides),
-                               MPI_COMM_SELF);
+  Simulation<2> sim =
+      start<2>(plain_scene_of(ring_text(size, cell, shell_inner, shell_outer,
+                                        "[time]\nend = 40e-6\n[output]\nbeat = 1e-6\n"),
+                              overrides),
+               MPI_COMM_SELF);
   const double speed = shell_speed(stop);
   set_motion(
       [&](const Plane& x) {
@@ -213,10 +214,11 @@ Closing pressed_void(double pressure, double gate, bool stop_there, int cells_pe
   const double size = std::ceil(1.02 * ring_outer / cell) * cell;
   // The equation knows no heat: without thermal pressure the outer pressure, whose work is not
   // told apart from that of the stress, leaves no trace in the state.
-  Simulation<2> sim = start<2>(scene_of(ring_text(size, cell, void_radius, ring_outer,
-                                                  "[time]\nend = 4e-6\n[output]\nbeat = 4e-6\n"),
-                                        {"material.0.gamma=0.0"}),
-                               MPI_COMM_SELF);
+  Simulation<2> sim =
+      start<2>(plain_scene_of(ring_text(size, cell, void_radius, ring_outer,
+                                        "[time]\nend = 4e-6\n[output]\nbeat = 4e-6\n"),
+                              {"material.0.gamma=0.0"}),
+               MPI_COMM_SELF);
   load_to_flow(sim);
   const InnerRadius inner{void_radius, mean_square_radius(sim)};
   Closing found{{void_radius, 0.0}, 0.0};

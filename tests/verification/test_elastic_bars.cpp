@@ -41,7 +41,7 @@ struct Bounce {
 };
 
 Bounce bounce(const std::vector<std::string>& overrides) {
-  Simulation<2> sim = start<2>(scene_of(bar_scene("wall"), overrides), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(bar_scene("wall"), overrides), MPI_COMM_SELF);
   for (double& v : sim.particles.velocity[1]) v = -speed;
   const double c = longitudinal_sound_speed(sim.materials[0]);
   Bounce b{2.0 * length / c, 0.25 * sim.scene.domain.cell / c, impedance(sim), total_mass(sim), {}};
@@ -99,7 +99,7 @@ TEST(ElasticBar, BouncesOffARigidWall) {
 TEST(ElasticBar, GivesItsVelocityToAnEqualOne) {
   // 500 um at rest below 500 um that fall on them: at twice the time a wave needs for one bar the
   // upper one stands still and the lower one has all its velocity. Later the exact bars part.
-  Simulation<2> sim = start<2>(scene_of(bar_scene("free")), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(bar_scene("free")), MPI_COMM_SELF);
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     sim.particles.position[1][p] += 100e-6;
     const bool upper = site(sim, p)[1] > 0.5 * length;

@@ -46,7 +46,7 @@ quadratic = 0.0
 [time]
 end = 1.0
 )") + aluminium_text;
-  return start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+  return start<2>(plain_scene_of(text, overrides), MPI_COMM_SELF);
 }
 
 /// u = amplitude sin(k X) sin(w t): at t = 0 straight and free of stress.

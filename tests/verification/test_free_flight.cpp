@@ -48,7 +48,7 @@ kind = "solid"
 [time]
 end = 1.0
 )") + aluminium_text;
-  Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(text, overrides), MPI_COMM_SELF);
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     sim.particles.mass[p] *= 1.01;
     sim.particles.density[p] *= 1.01;
@@ -104,7 +104,7 @@ frame = [1100.0, 170.0]
 [time]
 end = 1.0
 )") + aluminium_text;
-  Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(text, overrides), MPI_COMM_SELF);
   const HistoryRow before = stock(sim);
   const double dt = sim.clock.limit;
   double stress_halfway = 0.0;
@@ -158,7 +158,7 @@ end = 1.0
 void spray(const std::string& name, const std::vector<std::string>& overrides) {
   // Every eighth site in both directions: no two particles share a node. They fly apart, the
   // fastest over a hundred cells.
-  Simulation<2> sim = start<2>(scene_of(spray_scene(), overrides), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(spray_scene(), overrides), MPI_COMM_SELF);
   std::vector<std::uint32_t> kept;
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     const std::int64_t column = sim.particles.id[p] % 560, row = sim.particles.id[p] / 560;

@@ -16,7 +16,7 @@ Scene block(const std::vector<std::string>& overrides) {
                                   "domain.size=[1.52587890625e-04, 3.35693359375e-04]",
                                   "sample.height=3.0517578125e-04", "sample.void_radius=23e-6"};
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return scene_of(porous_text(), all);
+  return plain_scene_of(porous_text(), all);
 }
 
 struct State {

@@ -32,7 +32,7 @@ end = 1.0
 )") + aluminium_text;
   std::vector<std::string> all = overrides;
   all.push_back("material.0.yield=1e30");
-  Simulation<2> sim = start<2>(scene_of(text, all), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(text, all), MPI_COMM_SELF);
   set_motion(
       [](const Plane& x) {
         return Motion{{-spin * (x[1] - centre), spin * (x[0] - centre)}, {0.0, -spin, spin, 0.0}};

@@ -142,7 +142,7 @@ struct Swing {
 Swing run_vortex(double amplitude, int cells, const std::vector<std::string>& overrides) {
   std::vector<std::string> all = overrides;
   all.push_back("domain.cell=" + digits(3.0 / cells));
-  Simulation<2> sim = start<2>(scene_of(vortex_text(), all), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(vortex_text(), all), MPI_COMM_SELF);
   const Vortex vortex{amplitude};
   const double c = longitudinal_sound_speed(sim.materials[0]);
   const auto half = static_cast<std::int64_t>(
@@ -187,7 +187,7 @@ TEST(Vortex, BodyForceOfTheJaumannRateHasItsPublishedValues) {
 }
 
 TEST(Vortex, OneParticleInSimpleShearFollowsTheJaumannRate) {
-  Simulation<2> sim = start<2>(scene_of(vortex_text()), MPI_COMM_SELF);
+  Simulation<2> sim = start<2>(plain_scene_of(vortex_text()), MPI_COMM_SELF);
   const int steps = 4000;
   const double rate = 1.0, dt = 2.0 / steps;
   StepData<2>& step = sim.step_data;

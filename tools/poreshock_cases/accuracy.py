@@ -127,10 +127,17 @@ def tests(build):
     return rows
 
 
+RINGING = ("Averaged dilatation leaves a ringing behind strong plane fronts that becomes plastic strain. Without it "
+           "(averaging = 0, viscosity 0.6 and 2.25) the plastic strain stays within 1.3 % up to 3000 m/s.")
+LATE = ("The front is late by about a cell from its start on and hardly loses more on its way; without averaging it is "
+        "within half a cell in conserving mode.")
 KNOWN = {
+    (f"plate, conserving, {ALL} m/s", "plastic strain"): RINGING,
+    (f"plate, paper, {ALL} m/s", "plastic strain"): RINGING,
+    (f"plate, paper, {ALL} m/s", "overshoot behind the front"): RINGING,
+    ("plate in 3-D, 1100 m/s, 20 um cells", "plastic strain"): RINGING,
+    (f"plate, conserving, {ALL} m/s", "front position"): LATE,
     (f"plate, conserving, {ALL} m/s", "temperature rise"): WALL_HEATING,
     ("plate in 3-D, 1100 m/s, 20 um cells", "temperature rise"): WALL_HEATING,
-    (f"plate, paper, {ALL} m/s", "front position"):
-        "The front is late from its start on and hardly loses more on its way: 0.83, 0.92, 0.99 cells in plates of 2, "
-        "4, 8 mm at 700 m/s.",
+    (f"plate, paper, {ALL} m/s", "front position"): LATE,
 } | {("two waves, 5 mm", figure): reason for (_, figure), reason in KNOWN_HARD.items() if reason == SMEARED}

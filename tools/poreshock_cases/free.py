@@ -6,12 +6,14 @@ from poreshock_cases.table import check, limit, near, shown
 
 BULK = 2700.0 * 5350.0**2  # Pa, of the aluminium of all scenes
 SCHEMES = {  # name: settings
-    "cubic APIC": (),
-    "quadratic APIC": ("transfer.shape=quadratic",),
-    "cubic APIC, averaged": ("transfer.averaging=1",),
-    "quadratic APIC, averaged": ("transfer.shape=quadratic", "transfer.averaging=1"),
-    "cubic FLIP": ("transfer.velocity=flip",),
+    "default": (),
+    "cubic APIC": ("transfer.velocity=apic", "transfer.averaging=0"),
+    "quadratic APIC": ("transfer.shape=quadratic", "transfer.velocity=apic", "transfer.averaging=0"),
+    "cubic APIC, averaged": ("transfer.velocity=apic", "transfer.averaging=1"),
+    "cubic FLIP": ("transfer.velocity=flip", "transfer.averaging=0", "transfer.damping=0"),
     "quadratic FLIP, averaged": ("transfer.shape=quadratic", "transfer.velocity=flip", "transfer.averaging=1"),
+    "cubic FMPM(3)": ("transfer.velocity=fmpm", "transfer.averaging=0"),
+    "lineage": ("transfer.preset=lineage",),
 }
 
 
@@ -89,7 +91,7 @@ def momentum_change(run):
 
 def spinning(case, lab):
     """Elastic disc, ten turns with APIC, two with FLIP."""
-    run = lab.run("apic", "hard/spinning_disc.toml")
+    run = lab.run("apic", "hard/spinning_disc.toml", *SCHEMES["cubic APIC"])
     body, cell = run.scene["body"][0], run.scene["domain"]["cell"]
     turns = [particles(path) for path in run.snapshots]
     centre = numpy.mean([centre_stress(turn, body["center"], 1.5 * cell) for turn in turns[5:]])
@@ -98,7 +100,7 @@ def spinning(case, lab):
         inside = numpy.linalg.norm(turns[0]["position"] - body["center"], axis=1) < radius
         return (von_mises(turns[10], inside) / von_mises(turns[5], inside) - 1.0) / 5.0
 
-    flip = lab.run("flip", "hard/spinning_disc.toml", "transfer.velocity=flip", "time.end=10.053e-6")
+    flip = lab.run("flip", "hard/spinning_disc.toml", *SCHEMES["cubic FLIP"], "time.end=10.053e-6")
     rows = [limit(case, "APIC: change of angular momentum in ten turns", momentum_change(run), 1e-10),
             limit(case, "APIC: drift per turn of the mean von Mises stress, turns 5 to 10", drift(1.0), 1e-3),
             limit(case, "APIC: the same inside 0.7 of the radius", drift(0.7 * body["radius"]), 1e-3),
@@ -113,7 +115,7 @@ def spinning(case, lab):
 def spray(case, lab):
     """Single particles over a hundred cells."""
     rows = []
-    for name in ("cubic APIC", "quadratic APIC", "cubic FLIP"):
+    for name in ("default", "cubic APIC", "quadratic APIC", "cubic FLIP", "cubic FMPM(3)"):
         run = lab.run(name.replace(" ", "_"), "hard/spray.toml", *SCHEMES[name])
         first, last = run.particles(0), run.particles()
         change = numpy.linalg.norm(last["velocity"] - first["velocity"], axis=1)

@@ -9,8 +9,8 @@ from poreshock_cases.program import particles
 from poreshock_cases.table import check, limit, near, shown
 from poreshock_report import profiles
 
-# Void fraction and end of the run, s: the front is then about 1.3 mm above the wall.
-SAMPLES = ((0.077, 300e-9), (0.3, 600e-9), (0.46, 1000e-9))
+# Void fraction and end of the run, s: the front is then about 1.1 mm above the wall.
+SAMPLES = ((0.077, 250e-9), (0.3, 500e-9), (0.46, 800e-9))
 COLLAPSE_CELLS = (10e-6, 5e-6, 2.5e-6)  # m
 
 

@@ -98,14 +98,14 @@ struct Transfer {
   double damping = 0.0;  ///< 1/s, FLIP only
   int order = 3;         ///< FMPM only: order of its filter
   VelocityUpdate update = VelocityUpdate::usl;
-  double averaging = 0.0;    ///< 0 (off) ... 1 share of the averaged dilatation
+  double averaging = 1.0;    ///< 0 (off) ... 1 share of the averaged dilatation
   double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
   bool operator==(const Transfer&) const = default;
 };
 
 struct Viscosity {
   double linear = 0.6;
-  double quadratic = 2.25;
+  double quadratic = 8.0;
   bool operator==(const Viscosity&) const = default;
 };
 
