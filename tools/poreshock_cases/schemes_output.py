@@ -107,6 +107,7 @@ def reference_lines(reference):
 
 def draw(panel, results, error, title):
     """Error against cost, one line per scheme over its cells, and the front of the closing schemes."""
+    panel.set_prop_cycle(color=pyplot.get_cmap("tab20").colors)
     for name in dict.fromkeys(result.scheme.name for result in ordered(results)):
         mine = [r for r in results if r.scheme.name == name and r.per_cell == 2 and not r.failed]
         mine.sort(key=lambda r: r.cost)
