@@ -145,11 +145,6 @@ void write_field(const Field<Dim>& field, const Source<Dim>& source, std::uint64
   file.write<T>("/particles/" + std::string(field.name), first_row, values);
 }
 
-double affine_inertia(const Scene& scene) {
-  const double cell2 = scene.domain.cell * scene.domain.cell;
-  return scene.transfer.shape == ShapeFunction::cubic ? cell2 / 3.0 : cell2 / 4.0;
-}
-
 }  // namespace
 
 std::string snapshot_name(std::int64_t record) {
@@ -160,7 +155,7 @@ template <int Dim>
 std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& input,
                             MPI_Comm communicator) {
   const Particles<Dim>& particles = input.particles;
-  Source<Dim> source{input, {}, affine_inertia(input.scene)};
+  Source<Dim> source{input, {}, affine_inertia(input.scene.transfer, input.scene.domain.cell)};
   std::int64_t floored = 0;
   if (wanted(input.scene, "temperature")) {
     floored = sum(derive_field("temperature", particles, input.materials, input.scene.thermal,

@@ -100,6 +100,11 @@ template double particle_temperature<2>(const Particles<2>&, const std::vector<M
                                         std::size_t);
 template double particle_temperature<3>(const Particles<3>&, const std::vector<Material>&, Thermal,
                                         std::size_t);
+double affine_inertia(const Transfer& transfer, double cell) {
+  if (transfer.velocity != VelocityTransfer::apic) return 0.0;
+  return cell * cell / (transfer.shape == ShapeFunction::cubic ? 3.0 : 4.0);
+}
+
 template std::int64_t derive_field<2>(std::string_view, const Particles<2>&,
                                       const std::vector<Material>&, Thermal, std::vector<double>&);
 template std::int64_t derive_field<3>(std::string_view, const Particles<3>&,

@@ -15,15 +15,9 @@ namespace {
 constexpr double tolerance = 1e-9;
 constexpr double most_cells = std::numeric_limits<int>::max();
 constexpr double greatest_void_fraction = 0.65;
-constexpr double greatest_hat_averaging = 0.5;
 constexpr int least_lateral_cells = 4;
 constexpr int least_shock_cells = 8;
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-
-bool good(const Report& report, std::initializer_list<const char*> paths) {
-  return std::none_of(paths.begin(), paths.end(),
-                      [&](const char* path) { return has_problem(report, path); });
-}
 
 bool whole_multiple(double value, double unit) {
   const double ratio = value / unit;
@@ -189,80 +183,6 @@ void check_region(const Region& region, int dimension, const std::string& path, 
   }
 }
 
-/// Combinations that cannot work, with the reason.
-void check_scheme(const Transfer& transfer, Report& report) {
-  const bool linear = transfer.shape == ShapeFunction::linear;
-  const bool spline =
-      transfer.shape == ShapeFunction::quadratic || transfer.shape == ShapeFunction::cubic;
-  const bool flip = transfer.velocity == VelocityTransfer::flip;
-  const bool filtered = transfer.velocity == VelocityTransfer::fmpm;
-  if (!spline && !flip && !(filtered && !linear)) {
-    add_problem("transfer.velocity",
-                std::string("found a transfer that needs B-splines, allowed \"flip\"") +
-                    (linear ? "" : " or \"fmpm\"") + " with transfer.shape = \"" +
-                    (linear ? "linear" : "gimp") + "\"",
-                report);
-  }
-  // Slopes that jump where a particle crosses a cell feed what the average hides, and it grows.
-  if (!spline && transfer.averaging > greatest_hat_averaging) {
-    add_problem("transfer.averaging",
-                "found " + plain_number(transfer.averaging) +
-                    ", allowed up to 0.5 with transfer.shape = \"linear\" or \"gimp\": more is "
-                    "unstable when material crosses cells",
-                report);
-  }
-  // On B-splines it gains energy on collapsing voids until the step collapses.
-  if (transfer.update == VelocityUpdate::musl && (!flip || spline)) {
-    add_problem("transfer.update",
-                "found \"musl\", allowed \"usl\" unless transfer.velocity = \"flip\" and "
-                "transfer.shape = \"linear\" or \"gimp\"",
-                report);
-  }
-  if (transfer.update == VelocityUpdate::musl && transfer.averaging > 0.0) {
-    add_problem("transfer.update",
-                "found \"musl\", allowed \"usl\" with averaged dilatation: both replace the "
-                "dilatation of the grid",
-                report);
-  }
-}
-
-/// The filter of FMPM overshoots at large steps.
-void check_filter(const Scene& scene, Report& report) {
-  const Transfer& transfer = scene.transfer;
-  if (!good(report, {"transfer.order", "time.cfl"})) return;
-  if (transfer.velocity != VelocityTransfer::fmpm) return;
-  const double most = transfer.order <= 2 ? 0.7 : (transfer.order == 3 ? 0.6 : 0.5);
-  if (scene.time.cfl <= most) return;
-  add_problem("time.cfl",
-              "found " + plain_number(scene.time.cfl) + ", allowed up to " + plain_number(most) +
-                  " with transfer.velocity = \"fmpm\" of order " + std::to_string(transfer.order),
-              report);
-}
-
-void check_transfer(const Scene& scene, Report& report) {
-  const Transfer& transfer = scene.transfer;
-  if (!good(report, {"transfer.velocity", "transfer.damping"})) return;
-  if (transfer.damping > 0.0 && transfer.velocity != VelocityTransfer::flip) {
-    add_problem("transfer.damping",
-                "found " + plain_number(transfer.damping) +
-                    " 1/s, allowed 0 unless transfer.velocity = \"flip\"",
-                report);
-  }
-  if (!good(report, {"transfer.shape", "transfer.update", "transfer.averaging"})) return;
-  check_scheme(transfer, report);
-  check_filter(scene, report);
-}
-
-void check_conduction(const Scene& scene, Report& report) {
-  if (!good(report, {"conduction", "transfer.shape"}) || !scene.conduction.on) return;
-  const ShapeFunction shape = scene.transfer.shape;
-  if (shape == ShapeFunction::quadratic || shape == ShapeFunction::cubic) return;
-  add_problem("conduction.on",
-              "found true, allowed with transfer.shape = \"quadratic\" or \"cubic\": the slopes of "
-              "the others jump where particles cross cells",
-              report);
-}
-
 void check_beat(double value, const char* path, bool may_be_zero, double beat, Report& report) {
   if (!good(report, {path, "output.beat"}) || (may_be_zero && value == 0.0)) return;
   if (whole_multiple(value, beat)) return;
@@ -361,8 +281,7 @@ void check_scene(const Scene& scene, Report& report) {
   for (std::size_t i = 0; i < scene.voids.size(); ++i) {
     check_region(scene.voids[i], scene.dimension, "void." + std::to_string(i), report);
   }
-  check_transfer(scene, report);
-  check_conduction(scene, report);
+  check_scheme(scene, report);
   check_output(scene, report);
   check_morphology(scene, report);
 }

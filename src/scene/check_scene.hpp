@@ -12,4 +12,7 @@ void resolve(Scene& scene, const Report& report);
 /// Adds every contradiction between keys to the report; keys that have a problem are left out.
 void check_scene(const Scene& scene, Report& report);
 
+/// The part of it about [transfer] and [conduction]: combinations that cannot work.
+void check_scheme(const Scene& scene, Report& report);
+
 }  // namespace poreshock::scene_text

@@ -1,7 +1,9 @@
 #pragma once
 // All problems of a scene, collected while it is read and shown together.
 
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -43,5 +45,11 @@ std::string report_text(const Report& report);
 
 /// The text ", did you mean "x"?" for the allowed name nearest to `name`; empty when none is near.
 std::string hint(const std::string& name, const std::vector<std::string>& allowed);
+
+/// True when none of the paths has a problem.
+inline bool good(const Report& report, std::initializer_list<const char*> paths) {
+  return std::none_of(paths.begin(), paths.end(),
+                      [&](const char* path) { return has_problem(report, path); });
+}
 
 }  // namespace poreshock::scene_text

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "poreshock/scene/scene.hpp"
+
 namespace poreshock::scene_text {
 
 inline constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -87,6 +89,11 @@ bool choice(Visitor& visitor, const char* key, Enum& value, const Names<Enum>& n
     if (text == name) value = meaning;
   }
   return true;
+}
+
+/// True for the hat and its average over the particle, whose slopes are not smooth across cells.
+inline bool is_hat(ShapeFunction shape) {
+  return shape == ShapeFunction::linear || shape == ShapeFunction::gimp;
 }
 
 }  // namespace poreshock::scene_text

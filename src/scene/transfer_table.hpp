@@ -28,7 +28,7 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
   choice(visitor, "shape", transfer.shape, shapes,
          {"between particles and grid: hat, uniform GIMP, quadratic or cubic B-spline"});
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
-  const bool hat = transfer.shape == ShapeFunction::linear || transfer.shape == ShapeFunction::gimp;
+  const bool hat = is_hat(transfer.shape);
   visitor.number("damping", transfer.damping,
                  {not_negative, "1/s", "of FLIP velocity noise; with flip only"});
   integer(visitor, "order", transfer.order,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/particles/derived.hpp"
 
 namespace poreshock {
 
@@ -80,11 +81,6 @@ void balance_momentum(const std::array<Int128, 3>& momentum, const Ledger& ledge
 }
 
 }  // namespace
-
-double affine_inertia(const Transfer& transfer, double cell) {
-  if (transfer.velocity != VelocityTransfer::apic) return 0.0;
-  return cell * cell / (transfer.shape == ShapeFunction::cubic ? 3.0 : 4.0);
-}
 
 void set_quanta(double energy, double momentum, Ledger& ledger) {
   ledger.energy_quantum = energy;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/particles/derived.hpp"
 #include "poreshock/particles/exchange.hpp"
 #include "poreshock/transfer/shape.hpp"
 

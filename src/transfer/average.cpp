@@ -27,9 +27,7 @@ void scatter_averages(const Spline& spline, const Particles<Dim>& particles, con
       [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
         const double volume = particles.mass[p] / particles.density[p];
         const Lanes q = volume * quantities(p);
-        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-          sums[n] += node_weight<Dim, Spline>(stencil, n) * q;
-        }
+        add_weighted<Dim, Spline>(stencil, q, sums);
       },
       averages);
   averages.exchange();

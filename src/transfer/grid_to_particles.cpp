@@ -127,16 +127,7 @@ inline void store_gradients(const Moments<Dim>& m, double inverse_cell, std::uin
       middle[a][k] = 0.5 * (start + end);
     }
   }
-  if constexpr (Dim == 2) {
-    step.rate[0][p] = middle[0][0];
-    step.rate[1][p] = middle[1][1];
-    step.rate[2][p] = 0.5 * (middle[0][1] + middle[1][0]);
-  } else {
-    for (int a = 0; a < 3; ++a) step.rate[a][p] = middle[a][a];
-    step.rate[3][p] = 0.5 * (middle[0][1] + middle[1][0]);
-    step.rate[4][p] = 0.5 * (middle[1][2] + middle[2][1]);
-    step.rate[5][p] = 0.5 * (middle[2][0] + middle[0][2]);
-  }
+  store_rate<Dim>(middle, p, step);
 }
 
 template <int Dim, VelocityTransfer Velocity, class Spline>

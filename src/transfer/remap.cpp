@@ -5,28 +5,6 @@
 
 namespace poreshock {
 
-namespace {
-
-/// The end gradient, and its symmetric part as the rate that does the work.
-template <int Dim>
-void store_gradient(const Matrix<Dim>& g, std::uint32_t p, StepData<Dim>& step) {
-  for (int a = 0; a < Dim; ++a) {
-    for (int k = 0; k < Dim; ++k) step.gradient[a * Dim + k][p] = g(a, k);
-  }
-  if constexpr (Dim == 2) {
-    step.rate[0][p] = g(0, 0);
-    step.rate[1][p] = g(1, 1);
-    step.rate[2][p] = 0.5 * (g(0, 1) + g(1, 0));
-  } else {
-    for (int a = 0; a < 3; ++a) step.rate[a][p] = g(a, a);
-    step.rate[3][p] = 0.5 * (g(0, 1) + g(1, 0));
-    step.rate[4][p] = 0.5 * (g(1, 2) + g(2, 1));
-    step.rate[5][p] = 0.5 * (g(2, 0) + g(0, 2));
-  }
-}
-
-}  // namespace
-
 template <int Dim>
 void remap_velocity(const Particles<Dim>& particles, const CellOrder& cells,
                     const Transfer& transfer, SlabGrid& grid) {
@@ -40,9 +18,7 @@ void remap_velocity(const Particles<Dim>& particles, const CellOrder& cells,
           for (int a = 0; a < Dim; ++a) {
             momentum[SumLane<Dim>::momentum + a] = m * particles.velocity[a][p];
           }
-          for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-            sums[n] += node_weight<Dim, Spline>(stencil, n) * momentum;
-          }
+          add_weighted<Dim, Spline>(stencil, momentum, sums);
         },
         grid);
   });
@@ -62,14 +38,15 @@ void gather_remapped(const SlabGrid& grid, const CellOrder& cells, const Transfe
                       gradient[k] += node_slope<Dim, Spline>(stencil, n, k) * nodes[n];
                     }
                   }
-                  Matrix<Dim> g;
+                  std::array<std::array<double, Dim>, Dim> g;
                   for (int a = 0; a < Dim; ++a) {
                     for (int k = 0; k < Dim; ++k) {
-                      g(a, k) = gradient[k][MotionLane<Dim>::end_velocity + a] * inverse_cell;
+                      g[a][k] = gradient[k][MotionLane<Dim>::end_velocity + a] * inverse_cell;
+                      step.gradient[a * Dim + k][p] = g[a][k];
                     }
                     particles.position[a][p] += dt * (step.transport[a][p] - grid_velocity[a]);
                   }
-                  store_gradient<Dim>(g, p, step);
+                  store_rate<Dim>(g, p, step);
                 });
   });
 }

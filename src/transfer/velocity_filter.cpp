@@ -33,9 +33,7 @@ void scatter_residual(const Spline& spline, const Particles<Dim>& particles, con
           square += r * r;
         }
         momentum[ResidualLane<Dim>::variance] = m * square;
-        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-          sums[n] += node_weight<Dim, Spline>(stencil, n) * momentum;
-        }
+        add_weighted<Dim, Spline>(stencil, momentum, sums);
       },
       grid);
 }

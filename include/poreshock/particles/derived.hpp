@@ -7,6 +7,7 @@
 
 #include "poreshock/material/material.hpp"
 #include "poreshock/particles/particles.hpp"
+#include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
 
@@ -29,5 +30,9 @@ template <int Dim>
 std::int64_t derive_field(std::string_view name, const Particles<Dim>& particles,
                           const std::vector<Material>& materials, Thermal thermal,
                           std::vector<double>& out);
+
+/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an
+/// affine particle is (|v|^2 + inertia |C|^2) / 2. Zero without APIC.
+double affine_inertia(const Transfer& transfer, double cell);
 
 }  // namespace poreshock

@@ -49,10 +49,6 @@ template <int Dim>
 Ledger make_ledger(const Scene& scene, const std::vector<Material>& materials,
                    const Particles<Dim>& particles, MPI_Comm communicator);
 
-/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an
-/// affine particle is (|v|^2 + inertia |C|^2) / 2. Zero without APIC.
-double affine_inertia(const Transfer& transfer, double cell);
-
 /// Totals of the run for one row of the history; time, step and dt are left alone. Collective.
 template <int Dim>
 HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials,

@@ -156,6 +156,14 @@ void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrd
       [](int) {});
 }
 
+/// Adds weight times `value` to every node of a stencil.
+template <int Dim, class Spline>
+inline void add_weighted(const Stencil<Dim, Spline>& stencil, const Lanes& value, Lanes* sums) {
+  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+    sums[n] += node_weight<Dim, Spline>(stencil, n) * value;
+  }
+}
+
 /// Sum of weight times node over a stencil.
 template <int Dim, class Spline>
 inline Lanes interpolate(const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {

@@ -11,15 +11,13 @@ namespace poreshock {
 
 /// Replaces v by v - (1 - P)^k v with k = transfer.order, where P is the mass-weighted average to
 /// the nodes and back (XPIC(k): Hammerquist & Nairn, CMAME 318 (2017) 724; order 1 would be PIC).
-/// With A = 1 - P, r_l = A^l v and R_l the nodal mean of r_l the kinetic energy lost is, in the
-/// mass-weighted product, <v, (A^k - A^2k / 2) v> = [<v, A^k v> + sum_n <v, P A^n v>] / 2 with n =
-/// k
-/// ... 2 k - 1. <v, P A^2s v> is the sum of m_i |R_s|^2, <v, P A^(2s+1) v> that of
-/// m_p (sum N |R_s|^2 - |sum N R_s|^2), <v, A^2s v> that of m_p |r_s|^2 and <v, A^(2s+1) v> that of
-/// m_i times the variance of r_s at the node: every particle's share is >= 0 and does not see the
-/// frame. It
-/// goes to the internal energy of the particles and to filter_heat (quanta), so that the energy
-/// closes. `grid` is scratch. Collective (k exchanges).
+/// With A = 1 - P, r_l = A^l v and R_l the nodal mean of r_l the kinetic energy lost is
+/// <v, (A^k - A^2k / 2) v> in the mass-weighted product, which is half of <v, A^k v> plus the sum
+/// of <v, P A^n v> over n = k to 2 k - 1. <v, P A^2s v> is the sum of m_i |R_s|^2,
+/// <v, P A^(2s+1) v> that of m_p (sum N |R_s|^2 - |sum N R_s|^2), <v, A^2s v> that of m_p |r_s|^2
+/// and <v, A^(2s+1) v> that of m_i times the variance of r_s at the node: every particle's share is
+/// >= 0 and does not see the frame. It goes to the internal energy of the particles and to
+/// filter_heat (quanta), so that the energy closes. `grid` is scratch. Collective (k exchanges).
 template <int Dim>
 void filter_velocity(const CellOrder& cells, const Transfer& transfer, double inverse_quantum,
                      SlabGrid& grid, Particles<Dim>& particles, StepData<Dim>& step,
