@@ -6,7 +6,6 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/particles/exchange.hpp"
-#include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/shape.hpp"
 
 namespace poreshock {
@@ -119,8 +118,8 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
   }
   sum(count, sim.communicator);
   std::vector<double> weights(count.begin(), count.end());
-  const RowRange awake = awake_around(sim.clock.disturbed, shape);
-  for (int row = 0; row < shape.rows && sim.grid; ++row) {
+  const RowRange awake = sim.cells.awake;  // of the last step
+  for (int row = 0; row < shape.rows; ++row) {
     const bool asleep = row < awake.first || row >= awake.last;
     weights[static_cast<std::size_t>(row)] *= asleep ? sleeping_weight : 1.0;
   }

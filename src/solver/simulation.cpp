@@ -89,14 +89,15 @@ void take_report(const StressReport& report, Simulation<Dim>& sim) {
 template <int Dim, class Visit>
 void for_each_chunk(const Simulation<Dim>& sim, Visit&& visit) {
   constexpr std::uint32_t chunk = 1024;  // particles
-  const bool whole = sim.scene.transfer.update == VelocityUpdate::musl;
   const RowRange awake = awake_rows(sim.cells, *sim.grid);
+  // Collective there, so also where nothing is awake.
+  if (sim.scene.transfer.update == VelocityUpdate::musl) return visit(awake);
   const auto place = [&](int row) { return first_place(sim.cells, *sim.grid, row); };
   for (RowRange rows = {awake.first, awake.first}; rows.first < awake.last;
        rows.first = rows.last) {
     do {
       ++rows.last;
-    } while (rows.last < awake.last && (whole || place(rows.last) - place(rows.first) < chunk));
+    } while (rows.last < awake.last && place(rows.last) - place(rows.first) < chunk);
     visit(rows);
   }
 }
