@@ -87,7 +87,8 @@ template <int Dim>
 void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
             Progress& progress) {
   const std::uint64_t bits = checksum(sim);
-  const Timings timings = final_timings(sim.clock, sim.phases, progress, sim.communicator);
+  const Timings timings = final_timings(sim.clock, sim.phases, std::ssize(sim.particles.id),
+                                        progress, sim.communicator);
   write_timings(options.folder + "/timings.json", timings, sim.communicator);
   const Ledger& l = sim.ledger;
   std::vector<std::int64_t> guards = {l.guards.compression,   l.guards.sound_speed,
@@ -142,6 +143,7 @@ template <int Dim>
 RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
   Progress progress;
   progress.start_wall = MPI_Wtime();
+  progress.start_memory = peak_memory();
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);

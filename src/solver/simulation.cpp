@@ -152,6 +152,7 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   fill<Dim>(scene, {layers * me / ranks, layers * (me + 1) / ranks}, sim.particles, report);
   sim.sample = total(report, communicator);
   rebalance(0.0, sim);
+  release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   StressReport stress;
