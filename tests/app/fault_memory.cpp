@@ -1,5 +1,5 @@
-// Preloaded into one rank: after the signal SIGRTMIN, memory of PORESHOCK_FAULT_BYTES or more at once
-// is not to be had, so that the rank throws std::bad_alloc wherever it asks for it.
+// Preloaded into one rank: after the signal SIGRTMIN, memory of PORESHOCK_FAULT_BYTES or more at
+// once is not to be had, so that the rank throws std::bad_alloc wherever it asks for it.
 #include <csignal>
 #include <cstdlib>
 #include <new>
