@@ -2,12 +2,22 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <new>
+#include <string>
 
 #include "poreshock/app/commands.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 
 namespace {
+
+/// Ends all ranks because of what only this one knows.
+int end_all(const std::string& what, MPI_Comm communicator) {
+  std::fprintf(stderr, "poreshock: rank %d: %s\n", poreshock::rank(communicator), what.c_str());
+  std::fflush(stderr);
+  MPI_Abort(communicator, static_cast<int>(poreshock::ExitCode::system_failure));
+  return static_cast<int>(poreshock::ExitCode::system_failure);
+}
 
 int fail(poreshock::ExitCode code, const char* what, MPI_Comm communicator) {
   if (poreshock::rank(communicator) == 0) std::fprintf(stderr, "poreshock: %s\n", what);
@@ -36,11 +46,12 @@ int guarded(const poreshock::Command& command, MPI_Comm communicator) {
     return fail(ExitCode::bad_state, error.what(), communicator);
   } catch (const poreshock::SystemError& error) {
     return fail(ExitCode::system_failure, error.what(), communicator);
+  } catch (const std::bad_alloc&) {
+    return end_all("out of memory: use more nodes, larger cells or fewer particles per cell",
+                   communicator);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "poreshock: rank %d: %s\n", poreshock::rank(communicator), error.what());
-    MPI_Abort(communicator, static_cast<int>(ExitCode::system_failure));
+    return end_all(error.what(), communicator);
   }
-  return static_cast<int>(ExitCode::system_failure);
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ Vector<Dim> grid_velocity(const Scene& scene) {
 template <int Dim>
 Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim;
+  make_grid_shape(scene);  // refuses a grid that PETSc cannot count, before anything is made
   sim.scene = scene;
   sim.scene_text = write_scene(scene);
   sim.communicator = communicator;
