@@ -191,6 +191,18 @@ class SmallDisk:
             subprocess.run(["umount", "-l", self.folder], check=False)
 
 
+def tell(fault, done, said, lost="nothing"):
+    """One line of the table of faults, which tools/faults makes."""
+    table = os.environ.get("PORESHOCK_FAULT_TABLE")
+    if not table:
+        return
+    # Names of files without their folders, which are those of this test.
+    said = re.sub(r"\S*/(?:\w+/)*(?=\w+\.(?:h5|csv|toml))", "", said)
+    said = re.sub(r"\s+", " ", said).strip()
+    with open(table, "a", encoding="utf-8") as file:
+        file.write(json.dumps({"fault": fault, "done": done, "said": said, "lost": lost}) + "\n")
+
+
 class FaultTest(ProgramTest):
     """Tests that harm a run of SCENE and compare it with one left in peace."""
 
@@ -245,11 +257,3 @@ class FaultTest(ProgramTest):
         self.assertGreater(len(paths), 0)
         for path in paths:
             self.assertIn("content   intact\n", self.succeed("info", path).output)
-
-    def tell(self, fault, done, said, lost="nothing"):
-        """One line of the table of faults, which tools/faults makes."""
-        table = os.environ.get("PORESHOCK_FAULT_TABLE")
-        said = re.sub(r"\s+", " ", re.sub(r"\S*/(\w+/)?(?=\w+\.(h5|csv|toml))", "", said)).strip()
-        if table:
-            with open(table, "a", encoding="utf-8") as file:
-                file.write(json.dumps({"fault": fault, "done": done, "said": said, "lost": lost}) + "\n")

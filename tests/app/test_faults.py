@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from faults import SECONDS, FaultTest, poison
+from faults import SECONDS, FaultTest, poison, tell
 from program import PROGRAM
 
 SHIM = os.environ.get("PORESHOCK_FAULT_MEMORY", "")
@@ -25,8 +25,8 @@ class KilledRank(FaultTest):
         self.assertIn("exited on signal 9", result.errors)
         self.assert_checkpoints_intact("step")
         self.assert_continues("step", ranks=2)
-        self.tell("a rank dies", "kill -9 of rank 1 of 3 in the middle of a step",
-                  re.search(r"mpirun noticed [^.]*\.", re.sub(r"\s+", " ", result.errors))[0])
+        tell("a rank dies", "kill -9 of rank 1 of 3 in the middle of a step",
+             re.search(r"mpirun noticed [^.]*\.", re.sub(r"\s+", " ", result.errors))[0])
 
     def test_in_the_middle_of_a_checkpoint(self):
         """Killed when the unfinished file is there; again if it was finished all the same."""
@@ -47,8 +47,8 @@ class KilledRank(FaultTest):
         self.assertTrue(caught, "no checkpoint was caught in the middle")
         self.assert_checkpoints_intact(name)
         self.assert_continues(name)
-        self.tell("a rank dies", "kill -9 of rank 1 of 2 while a checkpoint is half written",
-                  re.search(r"mpirun noticed [^.]*\.", re.sub(r"\s+", " ", result.errors))[0])
+        tell("a rank dies", "kill -9 of rank 1 of 2 while a checkpoint is half written",
+             re.search(r"mpirun noticed [^.]*\.", re.sub(r"\s+", " ", result.errors))[0])
 
 
 class FullDisk(FaultTest):
@@ -71,9 +71,9 @@ class FullDisk(FaultTest):
         self.assertGreater(len(left_out), 0)
         self.assertEqual(re.search("checksum .*", result.output)[0], re.search("checksum .*", self.whole[0])[0])
         self.assert_records_whole(f"{disk.folder.name}/out", left_out)
-        self.tell("disk full", "a disk that is full while records are written, with room again later",
-                  result.errors.splitlines()[0] + " ... " + result.errors.splitlines()[-1],
-                  "the snapshots of that time (named); nothing else")
+        tell("disk full", "a disk that is full while records are written, with room again later",
+             result.errors.splitlines()[0] + " ... " + result.errors.splitlines()[-1],
+             "the snapshots of that time (named); nothing else")
 
     def test_checkpoint_is_tried_again(self):
         disk = self.disk(24)
@@ -88,7 +88,7 @@ class FullDisk(FaultTest):
                          [f"checkpoint_{step:09d}.h5" for step in (600, 650, 700)])
         self.assert_checkpoints_intact(f"{disk.folder.name}/out")
         said = next(line for line in result.errors.splitlines() if "tries again at the next checkpoint" in line)
-        self.tell("disk full", "a disk that is full while a checkpoint is due, with room again later", said)
+        tell("disk full", "a disk that is full while a checkpoint is due, with room again later", said)
 
     def test_full_to_the_end(self):
         disk = self.disk(24)
@@ -100,7 +100,7 @@ class FullDisk(FaultTest):
         self.assert_checkpoints_intact(f"{disk.folder.name}/out")
         disk.make_room()
         self.assert_continues(f"{disk.folder.name}/out")
-        self.tell("disk full", "a disk that stays full to the end of the run", said[1])
+        tell("disk full", "a disk that stays full to the end of the run", said[1])
 
     def test_full_at_the_wall_time_limit(self):
         disk = self.disk(24)
@@ -112,8 +112,8 @@ class FullDisk(FaultTest):
         self.assert_checkpoints_intact(f"{disk.folder.name}/out")
         disk.make_room()
         self.assert_continues(f"{disk.folder.name}/out")
-        self.tell("disk full", "a disk that is full when the wall time is over", said[1],
-                  "the steps since the newest checkpoint; nothing on disk")
+        tell("disk full", "a disk that is full when the wall time is over", said[1],
+             "the steps since the newest checkpoint; nothing on disk")
 
 
 class OutputFolderGone(FaultTest):
@@ -126,8 +126,8 @@ class OutputFolderGone(FaultTest):
         self.assertEqual(result.code, 4, str(result))
         self.assertIn("the end is reached, but its last records cannot be written: ", result.errors)
         self.assertIn("No such file or directory", result.errors)
-        self.tell("output folder removed", "rm -r of the folder while the run goes",
-                  result.errors.splitlines()[0], "what was removed; the run computes on and says so")
+        tell("output folder removed", "rm -r of the folder while the run goes",
+             result.errors.splitlines()[0], "what was removed; the run computes on and says so")
 
     def test_moved_away_and_back(self):
         run = self.start("moved")
@@ -139,8 +139,8 @@ class OutputFolderGone(FaultTest):
         self.assertEqual(result.code, 0, str(result))
         left_out = re.findall(r"^left out: (snapshot_\d{6}\.h5)$", result.output, re.M)
         self.assert_records_whole("moved", left_out)
-        self.tell("output folder moved", "the folder is moved away and back while the run goes",
-                  result.errors.splitlines()[0], "the snapshots of that time (named), if any")
+        tell("output folder moved", "the folder is moved away and back while the run goes",
+             result.errors.splitlines()[0], "the snapshots of that time (named), if any")
 
     def test_remounted_read_only(self):
         disk = self.disk(24)
@@ -159,7 +159,7 @@ class OutputFolderGone(FaultTest):
         subprocess.run(["umount", disk.folder], check=True)
         self.assert_checkpoints_intact(name)
         self.assert_continues(name)
-        self.tell("output folder read-only", "mount -o remount,ro while the run goes", result.errors.splitlines()[0])
+        tell("output folder read-only", "mount -o remount,ro while the run goes", result.errors.splitlines()[0])
 
 
 class BadRank(FaultTest):
@@ -182,7 +182,7 @@ class BadRank(FaultTest):
         (self.folder / "nan/failed.h5").unlink()
         if any((self.folder / "nan").glob("checkpoint_*")):
             self.assert_continues("nan")
-        self.tell("NaN", "NaN written into the memory of one of 3 ranks, the mass of one particle", said[1])
+        tell("NaN", "NaN written into the memory of one of 3 ranks, the mass of one particle", said[1])
 
     def start_short_of_memory(self, name, *arguments):
         """A run on 3 ranks; after `run.take_memory()` rank 1 gets no more memory in large pieces."""
@@ -207,8 +207,8 @@ class BadRank(FaultTest):
         self.assert_thrown("throws", run)
         self.assertIn("poreshock: rank 1: out of memory: ", run.errors())
         self.assert_continues("throws", ranks=2)
-        self.tell("a rank throws", "memory refused to rank 1 of 3 while the others wait for it",
-                  "poreshock: rank 1: out of memory: use more nodes, larger cells or fewer particles per cell")
+        tell("a rank throws", "memory refused to rank 1 of 3 while the others wait for it",
+             "poreshock: rank 1: out of memory: use more nodes, larger cells or fewer particles per cell")
 
     def test_a_rank_that_throws_while_all_write_a_file(self):
         """Harmed when the unfinished snapshot is there; again if it was finished all the same."""
@@ -226,8 +226,8 @@ class BadRank(FaultTest):
         self.assertTrue(caught, "no snapshot was caught in the middle")
         self.run_scene("scene.toml", name, "--restart", "latest")
         self.assertEqual(list(folder.glob("*.part")), [])
-        self.tell("a rank throws", "memory refused to rank 1 of 3 while all write a snapshot together",
-                  "poreshock: rank 1: out of memory: use more nodes, larger cells or fewer particles per cell")
+        tell("a rank throws", "memory refused to rank 1 of 3 while all write a snapshot together",
+             "poreshock: rank 1: out of memory: use more nodes, larger cells or fewer particles per cell")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import re
 import signal
 import time
 
-from faults import SCENE, FaultTest
+from faults import SCENE, FaultTest, tell
 from program import closing_lines
 
 # All optional state at once: conducted heat, back stress, spall; heat flows, voids collapse, material escapes.
@@ -56,7 +56,7 @@ class Interrupted(FaultTest):
         self.assertEqual(closing_lines(last), self.whole)
         self.assertIn("at step 2000,", last.output)
         self.assert_records_whole("parts")
-        self.tell("interrupted", "a run of 2000 steps with conduction, spall and rebalance, on 1 rank stopped by USR1, on 3 "
-                  "killed by kill -9, on 2 stopped by TERM to a rank, finished on 4",
-                  "asked to stop: checkpoint ...; continue with --restart latest",
-                  "nothing: checksum, history, morphology, profiles and snapshots are those of the run in one go")
+        tell("interrupted", "a run of 2000 steps with conduction, spall and rebalance, on 1 rank stopped by USR1, on 3 "
+             "killed by kill -9, on 2 stopped by TERM to a rank, finished on 4",
+             "asked to stop: checkpoint ...; continue with --restart latest",
+             "nothing: checksum, history, morphology, profiles and snapshots are those of the run in one go")

@@ -1,6 +1,7 @@
 """Exit 2: a checkpoint a run cannot go on from; and what the folder holds is kept."""
 import shutil
 
+from faults import tell
 from program import BALLS, DISC, POROUS, ProgramTest, flip_byte
 
 
@@ -37,14 +38,21 @@ class RefusedRestart(ProgramTest):
     def test_truncated_checkpoint(self):
         (self.folder / self.checkpoint).write_bytes(self.whole[:-1000])
         size = len(self.whole)
-        self.refuse_restart(f"{self.checkpoint}: truncated or extended: it has {size - 1000} bytes, its header says {size}",
-                            self.checkpoint, ranks=2)
+        said = f"{self.checkpoint}: truncated or extended: it has {size - 1000} bytes, its header says {size}"
+        self.refuse_restart(said, self.checkpoint, ranks=2)
+        tell("damaged checkpoint", "the last 1000 bytes cut off", said)
 
     def test_flipped_byte(self):
-        flip_byte(self.folder / self.checkpoint, len(self.whole) // 2)
-        for ranks in (1, 3):
-            self.refuse_restart(f"{self.checkpoint}: damaged: its content does not match the hash in its header",
-                                self.checkpoint, ranks=ranks)
+        for at in (0, 9, 40, 3000, 4095, 4100, len(self.whole) // 2, len(self.whole) - 1):
+            (self.folder / self.checkpoint).write_bytes(self.whole)
+            flip_byte(self.folder / self.checkpoint, at)
+            said = (f"{self.checkpoint}: damaged: its content does not match the hash in its header" if at >= 4096 else
+                    f"{self.checkpoint}: damaged: its header does not match the header's own hash" if at >= 8 else
+                    f"{self.checkpoint}: damaged, its first 8 bytes are not the mark of poreshock files")
+            self.refuse_restart(said, self.checkpoint, ranks=3 if at in (9, 4100) else 1)
+            place = {0: "the mark", 40: "the padding of the header", 4100: "the content"}.get(at)
+            if place:
+                tell("damaged checkpoint", f"one byte flipped in {place}", said)
 
     def test_no_good_checkpoint_for_latest(self):
         flip_byte(self.folder / self.checkpoint, len(self.whole) // 2)
@@ -58,13 +66,15 @@ class RefusedRestart(ProgramTest):
         self.refuse_restart("empty: holds no usable checkpoint (checkpoint_NNNNNNNNN.h5)", "latest", output="empty")
 
     def test_another_dimension(self):
-        self.refuse_restart(f"{self.checkpoint}: holds a 2-D run, the scene asks for 3-D", self.checkpoint,
-                            scene="balls.toml", output="balls", ranks=2)
+        said = f"{self.checkpoint}: holds a 2-D run, the scene asks for 3-D"
+        self.refuse_restart(said, self.checkpoint, scene="balls.toml", output="balls", ranks=2)
+        tell("wrong checkpoint", "a checkpoint of a 2-D run for a 3-D scene", said)
 
     def test_other_physics(self):
         allowed = ("; allowed are differences in the title, time.end, time.max_steps, output, checkpoint, profile and morphology: "
                    "restart with the scene.toml beside it, or start a new run")
         written = f"{self.checkpoint} was written by a scene that differs in "
+        tell("wrong checkpoint", "another impact velocity on restart", written + "loading.velocity" + allowed)
         self.refuse_restart(written + "loading.velocity" + allowed, "latest", "--set", "loading.velocity=1400", ranks=2)
         self.refuse_restart(written + "output.beat, time.cfl" + allowed, "latest", "--set", "time.cfl=0.3", "--set",
                             "output.beat=5e-9", "--set", "output.history=5e-9")

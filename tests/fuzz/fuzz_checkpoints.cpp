@@ -53,6 +53,7 @@ TEST(Fuzz, DamagedCheckpointsAreRefused) {
     ASSERT_TRUE(test::contains(note, path)) << "case " << seed << ": " << note;
   }
   EXPECT_NO_THROW(resume<2>(scene, good, self));
+  std::printf("%llu damaged checkpoints: all refused\n", static_cast<unsigned long long>(count));
 }
 
 /// Writes one number of a dataset and seals the file again, as if it had been written so.
