@@ -1,5 +1,6 @@
 """A Slurm of one node for a test: munged, slurmctld and slurmd without systemd and cgroups."""
 import os
+import re
 import secrets
 import shutil
 import socket
@@ -110,7 +111,18 @@ class OneNode:
         """Numbers and states of the jobs that wait or run."""
         return self.call("squeue", "--noheader", "--format=%i %T").strip()
 
+    def cancel(self):
+        """Ends all jobs and what they started, without notice."""
+        for job in re.findall(r"^\d+", self.jobs(), re.M):
+            self.call("scancel", "--signal=KILL", "--full", job)
+            self.call("scancel", job)
+        end = time.monotonic() + 20
+        while self.jobs() and time.monotonic() < end:
+            time.sleep(0.5)
+
     def close(self):
+        if len(self.daemons) == 3:
+            self.cancel()
         for daemon in reversed(self.daemons):
             daemon.terminate()
             try:
