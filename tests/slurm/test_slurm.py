@@ -88,7 +88,7 @@ class Slurm(ProgramTest):
             self.assertRegex(text, r"\nSubmitted batch job \d+\n$")
         self.assertTrue(all(text.startswith("restart from out/checkpoint_") for text in logs[1:]))
         self.assertIn("\nThe run is done.\n", logs[-1])
-        whole = self.run_scene("poreshock/long.toml", "whole", ranks=2)
+        whole = self.run_scene("poreshock/long.toml", "whole")
         print("in one go:\n  " + whole.output.strip().replace("\n", "\n  "), flush=True)
         self.assertIn("escaped particles 0 ", whole.output)
         last = re.sub(r"^restart from .*\n", "", logs[-1]).replace("The run is done.\n", "").replace("in out\n", "in whole\n")
