@@ -34,6 +34,15 @@ std::vector<Part> parts_of(const Comparison& comparison, const ComparedRun& run,
           {folder + "d", {references, times}, "1", run.pattern_distance}};
 }
 
+std::vector<Part> parts_of(const SeedGroup& group, const std::string& unit,
+                           const std::string& folder) {
+  const std::uint64_t references = group.best_threshold.mean.size();
+  return {{folder + "best_threshold", {references}, unit, group.best_threshold.mean},
+          {folder + "best_threshold_deviation", {references}, unit, group.best_threshold.deviation},
+          {folder + "d_p_best", {references}, "1", group.best_distance.mean},
+          {folder + "d_p_best_deviation", {references}, "1", group.best_distance.deviation}};
+}
+
 void write_hdf5(const std::string& path, const Comparison& comparison) {
   FileSpec spec;
   spec.attributes = {{"kind", "comparison"},
@@ -49,6 +58,17 @@ void write_hdf5(const std::string& path, const Comparison& comparison) {
     const std::string name = "run_" + std::to_string(r + 1);
     spec.attributes.push_back({name, comparison.runs[r].path});
     for (Part& part : parts_of(comparison, comparison.runs[r], "/" + name + "/")) {
+      parts.push_back(std::move(part));
+    }
+  }
+  for (std::size_t g = 0; g < comparison.groups.size(); ++g) {
+    const std::string name = "seeds_" + std::to_string(g + 1);
+    std::string members;
+    for (const std::size_t r : comparison.groups[g].runs) {
+      members.append(members.empty() ? "run_" : ", run_").append(std::to_string(r + 1));
+    }
+    spec.attributes.push_back({name, members});
+    for (Part& part : parts_of(comparison.groups[g], comparison.unit, "/" + name + "/")) {
       parts.push_back(std::move(part));
     }
   }

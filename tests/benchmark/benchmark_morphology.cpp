@@ -87,6 +87,33 @@ void find_hot_spots(benchmark::State& state) {
   report(map, state);
 }
 
+/// Two by two particles a pixel, a tenth of a pixel off their lattice.
+void deposit(benchmark::State& state) {
+  const int side = 512;
+  const PixelGrid<2> grid(MPI_COMM_SELF, {{side, side}, 1.0, {true}});
+  std::vector<double> x, y, mass, density, value;
+  reference::Random random{1};
+  for (int j = 0; j < 2 * side; ++j) {
+    for (int i = 0; i < 2 * side; ++i) {
+      x.push_back(0.25 + 0.5 * i + 0.2 * (random.uniform() - 0.5));
+      y.push_back(0.25 + 0.5 * j + 0.2 * (random.uniform() - 0.5));
+      mass.push_back(0.25);
+      density.push_back(1.0 + 0.2 * random.uniform());
+      value.push_back(random.uniform());
+    }
+  }
+  const PixelSources<2> particles{{x, y}, mass, density};
+  const std::vector<PixelValues> values = {{value, 1.0}};
+  for (auto _ : state) {
+    auto map = poreshock::deposit<2>(particles, values, {1.0, 2.0}, grid);
+    benchmark::DoNotOptimize(map.values.data());
+  }
+  state.counters["Mparticle/s"] = benchmark::Counter(
+      1e-6 * static_cast<double>(x.size()) * static_cast<double>(state.iterations()),
+      benchmark::Counter::kIsRate);
+}
+
+BENCHMARK(deposit)->Unit(benchmark::kMillisecond);
 BENCHMARK(count_pixels)
     ->ArgNames({"texture", "thresholds"})
     ->ArgsProduct({{noise, smooth, shock}, {1, 16, 70, 256, 700}})

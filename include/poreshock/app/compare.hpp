@@ -12,8 +12,8 @@ namespace poreshock {
 struct CompareOptions {
   std::vector<std::string> runs;  ///< folders or files; the first is the reference
   std::string field = "temperature";
-  std::string threshold;    ///< of the reference, in the unit of the field; empty: all it measured
-  std::string window;       ///< BEGIN:END, s; empty: to the end of loading of the slower run
+  std::string threshold;  ///< of the reference, A,B,C in the unit of the field; empty: all
+  std::string window;     ///< BEGIN:END, s; slower (or empty), faster: to that run's end of loading
   std::string chi = "chi";  ///< which Euler characteristic: chi, chi4 (chi6 in 3-D), chi_paper
   double length = 0.0;      ///< m, unit of length of the functionals; 0: the pixel
   std::string output;       ///< .h5 or .csv; empty: none

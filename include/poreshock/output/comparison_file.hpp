@@ -22,6 +22,17 @@ struct ComparedRun {
   std::vector<double> pattern_distance;  ///< R x times, d at the best threshold
 };
 
+/// Mean and standard deviation, an entry per threshold of the reference.
+struct Spread {
+  std::vector<double> mean, deviation;
+};
+
+/// Runs that differ in the seed of their sample only: what one sample more would change.
+struct SeedGroup {
+  std::vector<std::size_t> runs;  ///< numbers of the compared runs, two or more
+  Spread best_threshold, best_distance;
+};
+
 /// A reference run and all runs compared with it.
 struct Comparison {
   std::string reference;
@@ -29,10 +40,12 @@ struct Comparison {
   std::string unit;                         ///< of thresholds
   std::vector<double> reference_threshold;  ///< R
   std::vector<ComparedRun> runs;
+  std::vector<SeedGroup> groups{};
 };
 
-/// Writes the comparison: to a name that ends in .h5 all of it, /run_1/..., /run_2/... and
-/// /reference_threshold; to one that ends in .csv a row per run and threshold of the reference
+/// Writes the comparison: to a name that ends in .h5 all of it, /run_1/..., /run_2/...,
+/// /reference_threshold, and /seeds_1/... with mean and deviation of each group of runs (attribute
+/// seeds_1: their numbers); to one that ends in .csv a row per run and threshold of the reference
 /// (d_p = 0 means identical). An older file is replaced. InputError on all ranks for other names.
 /// Rank 0 works. Collective.
 void write_comparison(const std::string& path, const Comparison& comparison, MPI_Comm communicator);
