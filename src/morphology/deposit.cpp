@@ -29,15 +29,15 @@ void add_square(const std::array<Overlaps, Dim>& overlaps, int width, double den
                 std::span<const std::int64_t> rounded, RowSums& sums) {
   const Overlaps& x = overlaps[0];
   const Overlaps& last = overlaps[Dim - 1];
-  const std::size_t middle = Dim == 3 ? overlaps[1].pixel.size() : 1;
-  for (std::size_t r = 0; r < last.pixel.size(); ++r) {
+  const std::size_t middle = Dim == 3 ? overlaps[1].count : 1;
+  for (std::size_t r = 0; r < last.count; ++r) {
     std::uint64_t* row = sums.row(last.pixel[r]);
     for (std::size_t m = 0; m < middle; ++m) {
       const double across = Dim == 3 ? last.length[r] * overlaps[1].length[m] : last.length[r];
       const std::size_t start = Dim == 3 ? static_cast<std::size_t>(overlaps[1].pixel[m]) *
                                                static_cast<std::size_t>(width)
                                          : 0;
-      for (std::size_t i = 0; i < x.pixel.size(); ++i) {
+      for (std::size_t i = 0; i < x.count; ++i) {
         const double overlap = x.length[i] * across * weight_unit;
         const std::int64_t weight = std::llrint(overlap * density);
         std::uint64_t* pixel =
@@ -52,25 +52,25 @@ void add_square(const std::array<Overlaps, Dim>& overlaps, int width, double den
   }
 }
 
-/// Rows of the map that the particles of this rank touch.
+/// Rows of the map that the particles of this rank may touch.
 template <int Dim>
 RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
                   const PixelScales& scales, const PixelGrid<Dim>& grid) {
   const int rows = grid.layout().pixels[Dim - 1];
-  double low = rows;
-  double high = 0.0;
-  Counters ignored;
-  Square<Dim> square;
-  for (std::size_t i = 0; i < particles.mass.size(); ++i) {
-    if (make_square(particles, i, scales, grid.layout().pixel_size, square, ignored) ==
-        SquareKind::skipped) {
-      continue;
-    }
-    low = std::min(low, square.sides[Dim - 1].low);
-    high = std::max(high, square.sides[Dim - 1].high);
+  const double most = value_limit * grid.layout().pixel_size;  // beyond, a particle is skipped
+  double low = most;
+  double high = -most;
+  for (const double y : particles.position[Dim - 1]) {
+    low = y < low && y > -most ? y : low;
+    high = y > high && y < most ? y : high;
   }
-  const int first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(rows)));
-  const int end = static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(rows)));
+  const double reach = 0.5 * scales.max_side;
+  const auto row_at = [&](double y) {
+    return std::clamp(y / grid.layout().pixel_size, 0.0, static_cast<double>(rows));
+  };
+  // One row more at each end: the rounding here is not that of the squares.
+  const int first = std::max(static_cast<int>(std::floor(row_at(low - reach))) - 1, 0);
+  const int end = std::min(static_cast<int>(std::ceil(row_at(high + reach))) + 1, rows);
   return RowSums(first, std::max(end - first, 0), grid.row_size(), components);
 }
 
@@ -81,6 +81,7 @@ RowSums sum_particles(const PixelSources<Dim>& particles, std::span<const PixelV
   RowSums band = make_band(particles, 2 + values.size(), scales, grid);
   std::vector<std::int64_t> rounded(values.size());
   std::array<Overlaps, Dim> overlaps;
+  overlaps.fill(make_overlaps(scales.max_side / layout.pixel_size));
   Square<Dim> square;
   for (std::size_t i = 0; i < particles.mass.size(); ++i) {
     if (make_square(particles, i, scales, layout.pixel_size, square, counters) ==

@@ -67,28 +67,38 @@ SquareKind make_square(const PixelSources<Dim>& particles, std::size_t i, const 
   return SquareKind::usable;
 }
 
-/// Overlap of a square with the pixels along one axis: lengths in pixels and the pixels' numbers.
+/// Overlap of a square with the pixels along one axis: lengths in pixels and the pixels' numbers,
+/// in the first `count` entries.
 struct Overlaps {
+  std::size_t count = 0;
   std::vector<int> pixel;
   std::vector<double> length;
 };
 
+/// Room for the overlaps of a square of this side in pixels.
+inline Overlaps make_overlaps(double side) {
+  const auto most = static_cast<std::size_t>(side) + 3;
+  return {0, std::vector<int>(most), std::vector<double>(most)};
+}
+
 inline void find_overlaps(const Interval& side, int pixels, bool periodic, Overlaps& overlaps) {
-  overlaps.pixel.clear();
-  overlaps.length.clear();
   auto begin = static_cast<std::int64_t>(std::floor(side.low));
   auto end = static_cast<std::int64_t>(std::ceil(side.high));
   if (!periodic) {
     begin = std::max<std::int64_t>(begin, 0);
     end = std::min<std::int64_t>(end, pixels);
   }
+  std::size_t count = 0;
   for (std::int64_t i = begin; i < end; ++i) {
     const auto at = static_cast<double>(i);
-    const double length = std::min(side.high, at + 1.0) - std::max(side.low, at);
-    const std::int64_t wrapped = periodic ? ((i % pixels) + pixels) % pixels : i;
-    overlaps.pixel.push_back(static_cast<int>(wrapped));
-    overlaps.length.push_back(length);
+    // A division takes longer than all the rest; most pixels need none.
+    const bool inside = i >= 0 && i < pixels;
+    const std::int64_t wrapped = inside ? i : ((i % pixels) + pixels) % pixels;
+    overlaps.pixel[count] = static_cast<int>(wrapped);
+    overlaps.length[count] = std::min(side.high, at + 1.0) - std::max(side.low, at);
+    ++count;
   }
+  overlaps.count = count;
 }
 
 /// Rounds the values of particle i to integers.
