@@ -53,14 +53,31 @@ def pixel_mean(x, y, values, extent, pixel):
     return mean.T, spans
 
 
+def read_slice(path):
+    """The plane piece of a snapshot that is drawn."""
+    piece = slice_of(reader.read_particles(path, ("position", "temperature", "mass", "density")))
+    if len(piece[0]) == 0:
+        raise reader.Missing(f"{path.name} holds no particles")
+    return piece
+
+
+def panel_size(width, height):
+    """Width and height in inches of one panel of a sample of this shape, and whether it is to scale."""
+    high = numpy.clip(4.5 * height / width, 1.5, 7.0)
+    if high * width / height >= 0.5:
+        return high * width / height, high, True
+    return 0.9, high, False  # so narrow that it is stretched
+
+
 def temperature(folder):
     """Snapshots side by side, coloured by temperature (Figure 1 of the paper)."""
     times = reader.snapshot_times(folder)
-    names = ("position", "temperature", "mass", "density")
-    chosen = [(times[i][0], slice_of(reader.read_particles(times[i][1], names)))
-              for i in choose_snapshots(times)]
-    if any(len(piece[0]) == 0 for _, piece in chosen):
-        raise reader.Missing("a snapshot holds no particles")
+    return temperature_panels([times[i] for i in choose_snapshots(times)])
+
+
+def temperature_panels(snapshots):
+    """The snapshots, a list of (time, path), side by side on one scale of temperature."""
+    chosen = [(time, read_slice(path)) for time, path in snapshots]
     extent = [(min(piece[axis].min() for _, piece in chosen),
                max(piece[axis].max() for _, piece in chosen)) for axis in (0, 1)]
     width, height = (high - low for low, high in extent)
@@ -69,19 +86,21 @@ def temperature(folder):
     low, high = everything.min(), numpy.percentile(everything, 99.5)
     low = min(low, high - 1.0)
 
-    panel = numpy.clip(6.5 * width / height, 0.9, 4.5)
-    figure, axes = plt.subplots(1, len(chosen), sharey=True, squeeze=False, layout="compressed",
-                                figsize=(panel * len(chosen) + 2.4, panel * height / width + 1.0))
+    panel, tall, to_scale = panel_size(width, height)
+    figure, axes = plt.subplots(1, len(chosen), sharey=True, squeeze=False,
+                                layout="compressed" if to_scale else "constrained",
+                                figsize=((panel + 0.15) * len(chosen) + 2.0, tall + 1.0))
     for axis, (time, piece) in zip(axes[0], chosen):
         mean, spans = pixel_mean(piece[0], piece[1], piece[2], extent, pixel)
         image = axis.imshow(mean, origin="lower", extent=[1e3 * end for span in spans for end in span],
-                            cmap="turbo", vmin=low, vmax=high, interpolation="nearest")
+                            cmap="turbo", vmin=low, vmax=high, interpolation="nearest",
+                            aspect="equal" if to_scale else "auto")
         axis.set(title=f"{1e9 * time:.4g} ns",
                  xlim=[1e3 * end for end in extent[0]], ylim=[1e3 * end for end in extent[1]])
         axis.grid(False)
-        axis.locator_params(axis="x", nbins=3)
+        axis.locator_params(axis="x", nbins=3 if panel > 0.8 else 1)
     axes[0][0].set_ylabel("along the shock axis [mm]")
-    axes[0][len(chosen) // 2].set_xlabel("across [mm]")
+    axes[0][len(chosen) // 2].set_xlabel("across [mm]" + ("" if to_scale else ", stretched"))
     figure.colorbar(image, ax=axes, label="temperature [K]", extend="max", shrink=0.8, pad=0.01)
     return figure
 
