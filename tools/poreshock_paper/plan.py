@@ -1,4 +1,5 @@
 """The runs that the figures of the paper need."""
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -60,10 +61,12 @@ def ends(porosity, velocity):
 
 def settings(study, porosity, velocity, seed, thermal, **more):
     """Settings of a run; `more` are keys of the scene with __ for the point."""
+    row = 2.0 * study.cell  # the largest cell and pixel of the variants
+    high = row * math.ceil(round(1.1 * HEIGHT / row, 6))  # there is room to fly up
     snapshot = 0.0
     if (porosity, thermal, seed) == (LOW, "paper", study.seeds[0]):
         snapshot = 50 * NS if velocity == REFERENCE else FIGURE_6 * NS
-    values = {"domain.size": [study.width, 1.1 * HEIGHT], "domain.cell": study.cell, "thermal": thermal,
+    values = {"domain.size": [study.width, float(f"{high:.9g}")], "domain.cell": study.cell, "thermal": thermal,
               "sample.porosity": porosity, "sample.seed": seed, "sample.void_radius": study.radius,
               "loading.velocity": float(velocity), "time.end": ends(porosity, velocity), "profile.every": 0.0,
               "output.snapshot": snapshot, "output.history": 10 * NS, "morphology.every": 10 * NS,
@@ -94,9 +97,8 @@ def figure_8(study, seed, thermal):
 
 def solid(study):
     """A plate without voids: the temperature of uniform material."""
-    wide = [4 * study.cell, 1.1 * HEIGHT]
     return Case("paper-solid-v1100", study.scene, settings(
-        study, LOW, REFERENCE, 1, "paper", sample__kind="solid", domain__size=wide, output__snapshot=50 * NS,
+        study, LOW, REFERENCE, 1, "paper", sample__kind="solid", domain__size=[float(f"{4 * study.cell:.9g}"), 1.12 * HEIGHT], output__snapshot=50 * NS,
         time__end=1100 * NS))
 
 
