@@ -181,6 +181,8 @@ void declare_compare(Command& command, CLI::App& app) {
   compare->add_option(
       "--window", options.window,
       "BEGIN:END in seconds, or slower (default) or faster: to that run's end of loading");
+  compare->add_option("--time", options.time,
+                      "common (default), or loading: in units of each run's own loading time");
   compare->add_option("--chi", options.chi, "chi (default), chi4, chi6 or chi_paper");
   compare->add_option("--length", options.length,
                       "unit of length in metres (default: the pixel, the same in all runs)");

@@ -79,6 +79,11 @@ RunData read_run(const std::string& path, const CompareOptions& options, MPI_Com
     run.process.functionals.push_back(std::move(values));
     factor *= ratio;
   }
+  if (options.time == "loading") {
+    const double loaded = end_of_loading(run.process);
+    if (!(loaded > 0.0)) throw InputError(path + ": its first record is its hottest: no loading");
+    for (double& time : run.process.time) time /= loaded;
+  }
   return run;
 }
 
@@ -163,8 +168,9 @@ void print(const Comparison& comparison) {
   std::printf("%s against %s, S_p = 1/d_p\n", comparison.field.c_str(),
               comparison.reference.c_str());
   for (const ComparedRun& run : comparison.runs) {
-    std::printf("\n%s, from %.6g ns to %.6g ns\n", run.path.c_str(), run.begin * 1e9,
-                run.end * 1e9);
+    const bool seconds = comparison.time_unit == "s";
+    std::printf("\n%s, from %.6g to %.6g %s\n", run.path.c_str(), run.begin * (seconds ? 1e9 : 1.0),
+                run.end * (seconds ? 1e9 : 1.0), seconds ? "ns" : "loading times");
     std::printf("  %-18s %-14s %-14s %-18s %-14s %s\n",
                 ("reference [" + comparison.unit + "]").c_str(), "d_p there", "S_p there",
                 ("best [" + comparison.unit + "]").c_str(), "d_p best", "S_p best");
@@ -194,11 +200,18 @@ void compare(const CompareOptions& options, MPI_Comm communicator) {
     throw InputError("compare: found " + std::to_string(options.runs.size()) +
                      " run, allowed two or more; the first is the reference");
   }
+  if (options.time != "common" && options.time != "loading") {
+    throw InputError("--time: found \"" + options.time + "\", allowed \"common\", \"loading\"");
+  }
   if (!(options.length >= 0.0)) throw InputError("--length: allowed a number > 0 (m)");
   const WindowChoice window = parse_window(options.window);
   const RunData reference = read_run(options.runs[0], options, communicator);
-  Comparison comparison{
-      options.runs[0], options.field, reference.unit, reference.process.threshold, {}};
+  Comparison comparison{options.runs[0],
+                        options.field,
+                        reference.unit,
+                        options.time == "common" ? "s" : "1",
+                        reference.process.threshold,
+                        {}};
   if (!options.threshold.empty()) {
     comparison.reference_threshold = checked_thresholds(options.threshold, reference);
   }

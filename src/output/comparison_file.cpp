@@ -30,7 +30,7 @@ std::vector<Part> parts_of(const Comparison& comparison, const ComparedRun& run,
           {folder + "d_p_same", {references}, "1", run.same_distance},
           {folder + "best_threshold", {references}, unit, run.best_threshold},
           {folder + "d_p_best", {references}, "1", run.best_distance},
-          {folder + "time", {times}, "s", run.time},
+          {folder + "time", {times}, comparison.time_unit, run.time},
           {folder + "d", {references, times}, "1", run.pattern_distance}};
 }
 
@@ -82,8 +82,9 @@ void write_hdf5(const std::string& path, const Comparison& comparison) {
 
 std::string csv_text(const Comparison& comparison) {
   const std::string& unit = comparison.unit;
-  std::string text = "run,reference_threshold [" + unit + "],begin [s],end [s],d_p_same [1]," +
-                     "best_threshold [" + unit + "],d_p_best [1]\n";
+  std::string text = "run,reference_threshold [" + unit + "],begin [" + comparison.time_unit +
+                     "],end [" + comparison.time_unit + "],d_p_same [1]," + "best_threshold [" +
+                     unit + "],d_p_best [1]\n";
   for (const ComparedRun& run : comparison.runs) {
     for (std::size_t r = 0; r < comparison.reference_threshold.size(); ++r) {
       std::array<char, 256> line{};

@@ -62,7 +62,7 @@ def figure_4(matches, level, velocities):
     used = max(match.best for (_, known), match in matches.items() if known == level)
     axis.set(xlim=(0.0, min(1.6 * used, match.rise[-1])), xlabel=f"threshold - {START:.0f} K [K]", ylabel="$d_p$ [-]")
     axis.set_ylim(bottom=0.0)
-    axis.legend(ncols=2, fontsize=9)
+    axis.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=9)
     return figure
 
 
@@ -70,8 +70,7 @@ def figure_6(folders, wanted):
     """Material hotter (grey) and colder (black) than the threshold at one time, by label and threshold in K."""
     pieces = {label: (report.read_slice(nearest_snapshot(folder, wanted)[1]), threshold)
               for label, (folder, threshold) in folders.items()}
-    extent = [(min(piece[axis].min() for piece, _ in pieces.values()),
-               max(piece[axis].max() for piece, _ in pieces.values())) for axis in (0, 1)]
+    extent = report.common_extent([piece for piece, _ in pieces.values()])
     wide, high, to_scale = report.panel_size(*(end[1] - end[0] for end in extent))
     figure, axes = plt.subplots(1, len(pieces), sharey=True, squeeze=False, layout="constrained",
                                 figsize=((wide + 0.2) * len(pieces) + 1.0, high + 1.2))
@@ -108,6 +107,9 @@ def figure_8(series, fits):
     """ln DT against ln porosity by level of the reference, with the power law of the fitted range."""
     figure, axis = plt.subplots(figsize=(6.0, 4.6), layout="constrained")
     for level, points in series.items():
+        points = [point for point in points if numpy.isfinite(point[1])]
+        if not points:
+            continue
         porosity, mean, deviation = (numpy.array(column, dtype=float) for column in zip(*points))
         bars = axis.errorbar(porosity, mean, yerr=numpy.nan_to_num(deviation), fmt="o-", markersize=4, capsize=3, linewidth=0.8,
                              label=f"{level} K")

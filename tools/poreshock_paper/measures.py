@@ -41,10 +41,10 @@ class Match:
     at_end: bool  # at the end of what was measured, so maybe no minimum
 
 
-def matches(program, reference, runs, levels, window, output):
+def matches(program, reference, runs, levels, output, *options):
     """Matches of the runs (a dictionary of folders) by key and level, by `poreshock compare`; d_p is stored too."""
     keys = list(runs)
-    command = [program, "compare", reference, *(runs[key] for key in keys), "--chi", "chi_paper", "--window", window,
+    command = [program, "compare", reference, *(runs[key] for key in keys), "--chi", "chi_paper", *options,
                "--threshold", ",".join(f"{START + level:g}" for level in levels), "--output", output]
     output.parent.mkdir(parents=True, exist_ok=True)
     done = subprocess.run([str(part) for part in command], text=True, capture_output=True, check=False)

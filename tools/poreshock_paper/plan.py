@@ -46,13 +46,11 @@ def loading_time(porosity, velocity):
 
 
 def ends(porosity, velocity):
-    """End of a run: no earlier than the loading, with a margin, of all runs it is compared with."""
+    """End of a run: no earlier than its loading, with a margin, and that of all of its porosity it is compared with."""
     slowest = {LOW: min(FIGURE_4A), HIGH: min(FIGURE_4B)}
     last = loading_time(porosity, velocity)
     if porosity in slowest:
         last = max(last, loading_time(porosity, slowest[porosity] if velocity == REFERENCE else REFERENCE))
-    if velocity == REFERENCE and porosity not in slowest:
-        last = loading_time(LOW, REFERENCE)  # compared while both are loaded
     end = 1.08 * last + 20 * NS
     if (porosity, velocity) == (LOW, REFERENCE):
         end = max(end, max(FIGURE_1) * NS)

@@ -61,6 +61,14 @@ def read_slice(path):
     return piece
 
 
+def common_extent(pieces):
+    """Lateral and axial range of all pieces, half a particle beyond the outermost ones, so that these do
+    not lie on the edges of pixels."""
+    half = 0.5 * max(piece[3] for piece in pieces)
+    return [(min(piece[axis].min() for piece in pieces) - half, max(piece[axis].max() for piece in pieces) + half)
+            for axis in (0, 1)]
+
+
 def panel_size(width, height):
     """Width and height in inches of one panel of a sample of this shape, and whether it is to scale."""
     high = numpy.clip(4.5 * height / width, 1.5, 7.0)
@@ -78,8 +86,7 @@ def temperature(folder):
 def temperature_panels(snapshots):
     """The snapshots, a list of (time, path), side by side on one scale of temperature."""
     chosen = [(time, read_slice(path)) for time, path in snapshots]
-    extent = [(min(piece[axis].min() for _, piece in chosen),
-               max(piece[axis].max() for _, piece in chosen)) for axis in (0, 1)]
+    extent = common_extent([piece for _, piece in chosen])
     width, height = (high - low for low, high in extent)
     pixel = max(max(piece[3] for _, piece in chosen), max(width, height) / 1500.0)
     everything = numpy.concatenate([piece[2] for _, piece in chosen])

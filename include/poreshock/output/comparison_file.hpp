@@ -11,14 +11,14 @@ namespace poreshock {
 /// One run against the reference run, at R thresholds of the reference and K of the run.
 struct ComparedRun {
   std::string path;
-  double begin = 0.0;                  ///< s, time window
-  double end = 0.0;                    ///< s
+  double begin = 0.0;  ///< time window, in the unit of time
+  double end = 0.0;
   std::vector<double> threshold;       ///< K, of the run
   std::vector<double> distance;        ///< R x K, d_p
   std::vector<double> same_distance;   ///< R, d_p at the reference's threshold; NaN if not measured
   std::vector<double> best_threshold;  ///< R
   std::vector<double> best_distance;   ///< R, d_p there
-  std::vector<double> time;            ///< s, of both runs in the window
+  std::vector<double> time;            ///< of both runs in the window
   std::vector<double> pattern_distance;  ///< R x times, d at the best threshold
 };
 
@@ -38,6 +38,7 @@ struct Comparison {
   std::string reference;
   std::string field;
   std::string unit;                         ///< of thresholds
+  std::string time_unit;                    ///< "s", or "1": loading times of each run
   std::vector<double> reference_threshold;  ///< R
   std::vector<ComparedRun> runs;
   std::vector<SeedGroup> groups{};
