@@ -23,10 +23,25 @@ namespace {
 
 constexpr std::uint64_t weight_sum_limit = std::uint64_t{1} << 32;
 
+/// What a particle adds to the sums of a pixel, where it covers `overlap` of it.
+struct Content {
+  double density;
+  std::span<const std::int64_t> rounded;
+};
+
+void add_to_pixel(double overlap, const Content& content, std::uint64_t* pixel) {
+  const std::int64_t weight = std::llrint(overlap * content.density);
+  pixel[0] += static_cast<std::uint64_t>(std::llrint(overlap));
+  pixel[1] += static_cast<std::uint64_t>(weight);
+  for (std::size_t k = 0; k < content.rounded.size(); ++k) {
+    pixel[2 + k] += static_cast<std::uint64_t>(weight * content.rounded[k]);
+  }
+}
+
 /// Adds one particle to the sums, along x innermost.
 template <int Dim>
-void add_square(const std::array<Overlaps, Dim>& overlaps, int width, double density,
-                std::span<const std::int64_t> rounded, RowSums& sums) {
+void add_square(const std::array<Overlaps, Dim>& overlaps, int width, const Content& content,
+                RowSums& sums) {
   const Overlaps& x = overlaps[0];
   const Overlaps& last = overlaps[Dim - 1];
   const std::size_t middle = Dim == 3 ? overlaps[1].count : 1;
@@ -38,18 +53,38 @@ void add_square(const std::array<Overlaps, Dim>& overlaps, int width, double den
                                                static_cast<std::size_t>(width)
                                          : 0;
       for (std::size_t i = 0; i < x.count; ++i) {
-        const double overlap = x.length[i] * across * weight_unit;
-        const std::int64_t weight = std::llrint(overlap * density);
-        std::uint64_t* pixel =
-            row + (start + static_cast<std::size_t>(x.pixel[i])) * sums.components;
-        pixel[0] += static_cast<std::uint64_t>(std::llrint(overlap));
-        pixel[1] += static_cast<std::uint64_t>(weight);
-        for (std::size_t k = 0; k < rounded.size(); ++k) {
-          pixel[2 + k] += static_cast<std::uint64_t>(weight * rounded[k]);
-        }
+        add_to_pixel(x.length[i] * across * weight_unit, content,
+                     row + (start + static_cast<std::size_t>(x.pixel[i])) * sums.components);
       }
     }
   }
+}
+
+/// Adds a square no larger than a pixel that lies inside the map, to four pixels, some of which it
+/// may not reach. Without branches, since where a particle lies cannot be predicted. Says false,
+/// and adds nothing, where the square is another one.
+bool add_small_square(const Interval& x, const Interval& y, const std::array<int, 2>& pixels,
+                      const Content& content, RowSums& sums) {
+  const double left = std::floor(x.low);
+  const double bottom = std::floor(y.low);
+  const bool small = x.high <= left + 2.0 && y.high <= bottom + 2.0 && left >= 0.0 &&
+                     bottom >= 0.0 && left + 2.0 <= pixels[0] && bottom + 2.0 <= pixels[1];
+  if (!small) return false;
+  const auto two = [](const Interval& side, double at) {
+    const double next = at + 1.0;
+    const double first = (side.high < next ? side.high : next) - side.low;
+    return std::array<double, 2>{first, side.high > next ? side.high - next : 0.0};
+  };
+  const auto in_x = two(x, left);
+  const auto in_y = two(y, bottom);
+  std::uint64_t* low =
+      sums.row(static_cast<int>(bottom)) + static_cast<std::size_t>(left) * sums.components;
+  std::uint64_t* high = low + sums.row_length;
+  add_to_pixel(in_x[0] * in_y[0] * weight_unit, content, low);
+  add_to_pixel(in_x[1] * in_y[0] * weight_unit, content, low + sums.components);
+  add_to_pixel(in_x[0] * in_y[1] * weight_unit, content, high);
+  add_to_pixel(in_x[1] * in_y[1] * weight_unit, content, high + sums.components);
+  return true;
 }
 
 /// Rows of the map that the particles of this rank may touch.
@@ -74,26 +109,48 @@ RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
   return RowSums(first, std::max(end - first, 0), grid.row_size(), components);
 }
 
+/// Adds the particle with number i of a stretch.
+template <int Dim>
+void add_particle(const Squares<Dim>& squares, std::size_t i, const Content& content,
+                  const PixelLayout<Dim>& layout, std::array<Overlaps, Dim>& overlaps,
+                  RowSums& band) {
+  if constexpr (Dim == 2) {
+    if (add_small_square({squares.low[0][i], squares.high[0][i]},
+                         {squares.low[1][i], squares.high[1][i]}, layout.pixels, content, band)) {
+      return;
+    }
+  }
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    const bool periodic = axis + 1 < Dim && layout.periodic[std::min<std::size_t>(axis, Dim - 2)];
+    find_overlaps({squares.low[axis][i], squares.high[axis][i]}, layout.pixels[axis], periodic,
+                  overlaps[axis]);
+  }
+  add_square<Dim>(overlaps, layout.pixels[0], content, band);
+}
+
 template <int Dim>
 RowSums sum_particles(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
                       const PixelScales& scales, const PixelGrid<Dim>& grid, Counters& counters) {
+  constexpr std::size_t stretch = Squares<Dim>::stretch;
   const PixelLayout<Dim>& layout = grid.layout();
   RowSums band = make_band(particles, 2 + values.size(), scales, grid);
-  std::vector<std::int64_t> rounded(values.size());
   std::array<Overlaps, Dim> overlaps;
   overlaps.fill(make_overlaps(scales.max_side / layout.pixel_size));
-  Square<Dim> square;
-  for (std::size_t i = 0; i < particles.mass.size(); ++i) {
-    if (make_square(particles, i, scales, layout.pixel_size, square, counters) ==
-        SquareKind::skipped) {
-      continue;
+  Squares<Dim> squares;
+  std::vector<std::int64_t> rounded(values.size() * stretch);
+  std::vector<std::int64_t> own(values.size());
+  for (std::size_t first = 0; first < particles.mass.size(); first += stretch) {
+    const std::size_t count = std::min(stretch, particles.mass.size() - first);
+    make_squares(particles, first, count, scales, layout.pixel_size, squares, counters);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      counters.clamped += round_values(values[k], first, count, squares.usable.data(),
+                                       rounded.data() + k * stretch);
     }
-    round_values(values, i, rounded.data(), counters);
-    for (std::size_t axis = 0; axis < Dim; ++axis) {
-      const bool periodic = axis + 1 < Dim && layout.periodic[std::min<std::size_t>(axis, Dim - 2)];
-      find_overlaps(square.sides[axis], layout.pixels[axis], periodic, overlaps[axis]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (squares.usable[i] == 0) continue;
+      for (std::size_t k = 0; k < own.size(); ++k) own[k] = rounded[k * stretch + i];
+      add_particle<Dim>(squares, i, {squares.density[i], own}, layout, overlaps, band);
     }
-    add_square<Dim>(overlaps, layout.pixels[0], square.density, rounded, band);
   }
   return band;
 }

@@ -135,7 +135,8 @@ def growth(low, high):
     quality = [fit.quality for fit in lines.values() if fit]
     worst = min(quality) if quality else numpy.nan
     claims = [Claim("At 0.46 DT grows as V^2 (parabola)", f"straight lines in V^2 explain at least {100 * worst:.1f} % of the variance",
-                    *judged(worst >= 0.99, "", worst >= 0.95))]
+                    *judged(worst >= 0.99, "d_p is flat around its minimum where little is hotter than the threshold, so that the match "
+                            "of one sample is uncertain.", worst >= 0.95))]
     steep = [float(numpy.mean([exponent(points) for points in series.values()])) for series in (low, high)]
     claims.append(Claim("At low porosity DT grows faster", f"DT ~ V^{steep[0]:.2f} at 0.077, V^{steep[1]:.2f} at 0.46 (mean of the levels)",
                         *judged(steep[0] > steep[1], "Relative growth is compared.")))
@@ -148,7 +149,8 @@ def power_law(series, fits, reading):
     rises = [measures.rank_correlation([mean for _, mean, _ in points if numpy.isfinite(mean)]) for points in series.values()
              if sum(numpy.isfinite(mean) for _, mean, _ in points) > 2]
     why = ("At common times the slower shock in more porous material has heated less of it, and only a low threshold makes up "
-           "for that." if reading == "common times" else "Heat by collapse rises with the void fraction, but not as a power of it.")
+           "for that." if reading == "common times" else "In this thermal model plastic work is the only heat besides compression, and "
+           "compression falls as the void fraction grows; how much plastic work there is depends on cell, void size and scheme.")
     up = sum(rise > 0.0 for rise in rises)
     claims = [Claim(f"DT grows with the void fraction ({reading})", f"for {up} of {len(rises)} levels",
                     *judged(bool(rises) and up == len(rises), why, up > 0))]
