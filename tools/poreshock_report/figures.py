@@ -153,6 +153,34 @@ def morphology_space(folder, start):
     return figure
 
 
+def unresolved(folder, start):
+    """Labels of the rises at which chi4 and chi differ by a quarter of chi or more on the average over the run."""
+    _, threshold, arrays = reader.read_morphology(folder, names=("chi", "chi4"))
+    found = []
+    for i, label in nearest_rises(threshold, start):
+        apart = numpy.abs(arrays["chi4"][:, i] - arrays["chi"][:, i]).mean()
+        if apart > 0.25 * numpy.abs(arrays["chi"][:, i]).mean():
+            found.append(label)
+    return found
+
+
+def hot_spots(folder, start):
+    """Number of hot spots above a size, and size against peak, by level."""
+    level, size, peak, dimension, time = reader.read_hot_spots(folder)
+    diameter = 2e6 * (numpy.sqrt(size / numpy.pi) if dimension == 2 else numpy.cbrt(0.75 * size / numpy.pi))
+    figure, axes = plt.subplots(1, 2, figsize=(8.4, 3.9), layout="constrained")
+    for value in numpy.unique(level):
+        own = numpy.sort(diameter[level == value])[::-1]
+        axes[0].loglog(own, numpy.arange(1, len(own) + 1), drawstyle="steps-post", label=f"{value - start:.4g} K")
+        axes[1].loglog(diameter[level == value], peak[level == value] - start, ".", markersize=3)
+    same = "area" if dimension == 2 else "volume"
+    axes[0].set(xlabel=rf"diameter of equal {same} [$\mu$m]", ylabel="hot spots at least as large",
+                title=f"at {1e9 * time:.4g} ns")
+    axes[1].set(xlabel=rf"diameter of equal {same} [$\mu$m]", ylabel=f"peak - {start:.4g} K [K]")
+    axes[0].legend(title=f"threshold - {start:.4g} K", fontsize=9)
+    return figure
+
+
 def drift(columns):
     """|total - first total| / |first total| of each row of the history."""
     total = columns["total"]
