@@ -204,6 +204,7 @@ void visit_time(Visitor& visitor, TimeControl& time) {
                   "",
                   "share of a cell that a wave may cross in a step"});
   integer(visitor, "max_steps", time.max_steps, {not_negative, "", "0 = no limit"});
+  visitor.flag("sleep", time.sleep, {"true where rows that no wave has reached only move"});
 }
 
 template <typename Visitor>

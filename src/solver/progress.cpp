@@ -83,6 +83,7 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progre
   timings.wall_seconds = MPI_Wtime() - progress.start_wall;
   timings.steps = clock.step - progress.first_step;
   timings.particle_steps = sum(progress.particle_steps, communicator);
+  timings.sleeping_steps = sum(progress.sleeping_steps, communicator);
   timings.rate_per_core = timings.wall_seconds > 0.0 ? static_cast<double>(timings.particle_steps) /
                                                            (timings.wall_seconds * timings.ranks)
                                                      : 0.0;
@@ -103,7 +104,15 @@ std::string timings_table(const Timings& timings) {
       "%lld steps in %.1f s on %d ranks: %.2f million particle-steps per second per core\n",
       static_cast<long long>(timings.steps), timings.wall_seconds, timings.ranks,
       timings.rate_per_core * 1e-6);
-  return table + line;
+  table += line;
+  if (timings.sleeping_steps > 0) {
+    std::snprintf(line, sizeof line,
+                  "%.0f %% of them in rows that no wave had reached, which only move\n",
+                  100.0 * static_cast<double>(timings.sleeping_steps) /
+                      static_cast<double>(timings.particle_steps));
+    table += line;
+  }
+  return table;
 }
 
 }  // namespace poreshock

@@ -14,12 +14,13 @@
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/progress.hpp"
 #include "poreshock/solver/records.hpp"
+#include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {
 
 namespace {
 
-constexpr std::int64_t rebalance_interval = 200;
+constexpr std::int64_t rebalance_interval = 100;
 constexpr double least_rebalance_gain = 0.05;
 constexpr double seconds_between_rows = 2.0;
 
@@ -72,6 +73,7 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   const double dt = next_time_step(sim.scene, sim.clock);
   advance(sim, dt);
   progress.particle_steps += static_cast<std::int64_t>(sim.particles.size());
+  progress.sleeping_steps += sleeping_particles(sim);
   tick(sim.scene, dt, sim.clock);
   // First of all: a checkpoint keeps the limit of all ranks, and a position that is not finite has
   // no row to go to.

@@ -10,11 +10,13 @@
 #include "poreshock/physics/momentum.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/ownership.hpp"
+#include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
 #include "poreshock/transfer/remap.hpp"
 #include "poreshock/transfer/shape.hpp"
+#include "poreshock/transfer/sweep.hpp"
 #include "poreshock/transfer/velocity_filter.hpp"
 
 namespace poreshock {
@@ -81,6 +83,25 @@ void take_report(const StressReport& report, Simulation<Dim>& sim) {
   sim.ledger.viscous_heat += report.viscous_heat;
 }
 
+/// Calls visit(rows) for chunks of the rows that are awake, so small that what the stress update
+/// takes from the grid stays in the cache. MUSL needs all particles moved before their stress
+/// follows.
+template <int Dim, class Visit>
+void for_each_chunk(const Simulation<Dim>& sim, Visit&& visit) {
+  constexpr std::uint32_t chunk = 1024;  // particles
+  const RowRange awake = awake_rows(sim.cells, *sim.grid);
+  // Collective there, so also where nothing is awake.
+  if (sim.scene.transfer.update == VelocityUpdate::musl) return visit(awake);
+  const auto place = [&](int row) { return first_place(sim.cells, *sim.grid, row); };
+  for (RowRange rows = {awake.first, awake.first}; rows.first < awake.last;
+       rows.first = rows.last) {
+    do {
+      ++rows.last;
+    } while (rows.last < awake.last && place(rows.last) - place(rows.first) < chunk);
+    visit(rows);
+  }
+}
+
 /// MUSL: the velocity that the updated particles give the nodes, under the same walls. Its impulses
 /// move nothing and belong to no ledger.
 template <int Dim>
@@ -95,6 +116,29 @@ void update_from_particles(double dt, Simulation<Dim>& sim) {
   grid.fill_periodic_images();
   gather_remapped(grid, sim.cells, sim.scene.transfer, grid_velocity, dt, sim.particles,
                   sim.step_data);
+}
+
+/// Nodes to particles and stress of the particles of some rows.
+template <int Dim>
+void update_particles(RowRange rows, double dt, Simulation<Dim>& sim, StressReport& report) {
+  const Transfer& transfer = sim.scene.transfer;
+  {
+    const Phase phase(sim.phases, PhaseName::grid_to_particles);
+    grid_to_particles(*sim.grid, sim.averages.get(), sim.cells, rows, transfer,
+                      sim.stress_settings.grid_velocity, dt,
+                      sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
+                      sim.ledger.transfer_heat);
+  }
+  if (transfer.update == VelocityUpdate::musl) {
+    const Phase phase(sim.phases, PhaseName::remap);
+    update_from_particles(dt, sim);
+  }
+  const Phase phase(sim.phases, PhaseName::stress);
+  const std::uint32_t first = first_place(sim.cells, *sim.grid, rows.first);
+  const std::span places(sim.cells.order.data() + first,
+                         first_place(sim.cells, *sim.grid, rows.last) - first);
+  update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, sim.particles,
+                     report);
 }
 
 }  // namespace
@@ -113,6 +157,8 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   StressReport stress;
   initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, stress);
   take_report(stress, sim);
+  sim.clock.disturbed = disturbed_rows(sim);
+  agree_on_step(false, sim.clock, communicator);
   return sim;
 }
 
@@ -139,6 +185,8 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   rebalance(0.0, sim);
+  sim.clock.disturbed = disturbed_rows(sim);
+  agree_on_step(false, sim.clock, communicator);
   return sim;
 }
 
@@ -168,7 +216,7 @@ void advance(Simulation<Dim>& sim, double dt) {
   const Transfer& transfer = sim.scene.transfer;
   const bool averaging = transfer.averaging > 0.0;
   sort_particles(sim);
-  sim.step_data.resize(sim.particles.size(), averaging);
+  sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
   if (transfer.velocity == VelocityTransfer::fmpm) {
     const Phase phase(sim.phases, PhaseName::filter);
     filter_velocity(sim.cells, transfer, sim.ledger.nodes.inverse_energy_quantum, *sim.grid,
@@ -206,22 +254,16 @@ void advance(Simulation<Dim>& sim, double dt) {
   }
   if (averaging) {
     const Phase phase(sim.phases, PhaseName::average);
-    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages, sim.step_data);
+    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages);
   }
-  {
-    const Phase phase(sim.phases, PhaseName::grid_to_particles);
-    grid_to_particles(*sim.grid, sim.cells, transfer, sim.stress_settings.grid_velocity, dt,
-                      sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
-                      sim.ledger.transfer_heat);
-  }
-  if (transfer.update == VelocityUpdate::musl) {
-    const Phase phase(sim.phases, PhaseName::remap);
-    update_from_particles(dt, sim);
-  }
-  const Phase phase(sim.phases, PhaseName::stress);
   StressReport report;
-  update_stress(sim.materials, sim.stress_settings, sim.step_data, dt, sim.particles, report);
+  for_each_chunk(sim, [&](RowRange rows) { update_particles(rows, dt, sim, report); });
+  move_sleeping(dt, sim);
+  // Those asleep are still in the state that the first limit comes from.
+  if (sleeping_particles(sim) > 0)
+    report.dt_limit = std::min(report.dt_limit, sim.clock.first_limit);
   take_report(report, sim);
+  sim.clock.disturbed = disturbed_rows(sim);
 }
 
 template Simulation<2> start<2>(const Scene&, MPI_Comm);

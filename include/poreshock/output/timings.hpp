@@ -25,6 +25,7 @@ struct Timings {
   double wall_seconds = 0.0;
   std::int64_t steps = 0;
   std::int64_t particle_steps = 0;
+  std::int64_t sleeping_steps = 0;  ///< those of them whose particle only moved
   double rate_per_core = 0.0;  ///< particle steps per second and rank
   std::vector<PhaseTiming> phases;
 };

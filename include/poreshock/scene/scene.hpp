@@ -120,6 +120,7 @@ struct TimeControl {
   double end = 0.0;  ///< s
   double cfl = 0.5;
   std::int64_t max_steps = 0;  ///< 0 = no limit
+  bool sleep = true;           ///< rows that no wave has reached only move
   bool operator==(const TimeControl&) const = default;
 };
 

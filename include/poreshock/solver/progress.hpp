@@ -17,6 +17,7 @@ struct Progress {
   double start_wall = 0.0;              ///< s, MPI_Wtime at the start of the run
   double row_wall = 0.0;                ///< s, at the last row
   std::int64_t particle_steps = 0;      ///< of this rank since the start
+  std::int64_t sleeping_steps = 0;      ///< those of them in rows asleep
   std::int64_t row_particle_steps = 0;  ///< at the last row
   std::int64_t first_step = 0;
   double row_communication = 0.0;  ///< s, at the last row
