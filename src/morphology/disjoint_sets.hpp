@@ -75,28 +75,12 @@ class DisjointSets {
     return {root, absorbed, {}, shift};
   }
 
-  /// Joins like join(), but makes the root with the lower number that of both, so that flatten()
-  /// works; for nodes that are joined in about the order of their numbers.
-  Joined join_low(std::uint32_t a, std::uint32_t b, Crossings step) {
-    const Place at_a = find(a);
-    const Place at_b = find(b);
-    const Crossings apart = at_a.from_root + step - at_b.from_root;
-    if (at_a.root == at_b.root) return {at_a.root, at_a.root, apart, {}};
-    const bool swapped = at_b.root < at_a.root;
-    const std::uint32_t root = swapped ? at_b.root : at_a.root;
-    const std::uint32_t absorbed = swapped ? at_a.root : at_b.root;
-    const Crossings shift = swapped ? Crossings{} - apart : apart;
-    nodes_[absorbed].parent = root;
-    nodes_[absorbed].shift = shift;
-    return {root, absorbed, {}, shift};
-  }
-
-  /// Hangs every node directly below its root; after join_low() only.
+  /// Hangs every node directly below its root.
   void flatten() {
-    for (Node& node : nodes_) {
-      const Node& above = nodes_[node.parent];
-      node.shift = node.shift + above.shift;  // zero for a root
-      node.parent = above.parent;
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+      const Place at = find(i);
+      nodes_[i].parent = at.root;
+      nodes_[i].shift = at.from_root;
     }
   }
 

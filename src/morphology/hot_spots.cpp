@@ -91,11 +91,10 @@ struct SlabDomains {
 std::vector<std::uint32_t> number_sets(const Labels& labels, std::size_t runs, std::size_t& count) {
   std::vector<std::uint32_t> number(runs);
   count = 0;
-  // A root comes before all others of its set.
-  for (std::size_t r = 0; r < runs; ++r) {
-    const std::uint32_t root = labels.sets.place(static_cast<std::uint32_t>(r)).root;
-    number[r] = root == r ? static_cast<std::uint32_t>(count++) : number[root];
+  for (std::uint32_t r = 0; r < runs; ++r) {
+    if (labels.sets.place(r).root == r) number[r] = static_cast<std::uint32_t>(count++);
   }
+  for (std::uint32_t r = 0; r < runs; ++r) number[r] = number[labels.sets.place(r).root];
   return number;
 }
 

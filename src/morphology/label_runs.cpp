@@ -4,7 +4,7 @@ namespace poreshock {
 
 void join(std::size_t a, std::size_t b, Crossings step, Labels& labels) {
   const auto joined =
-      labels.sets.join_low(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), step);
+      labels.sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), step);
   const bool winds = joined.root == joined.absorbed && !(joined.winding == Crossings{});
   if (winds) labels.windings.push_back({joined.root, joined.winding});
 }
