@@ -140,7 +140,11 @@ void declare_analyze(Command& command, CLI::App& app) {
   AnalyzeOptions& options = command.analyze;
   CLI::App* analyze = app.add_subcommand("analyze", "morphology of stored fields");
   analyze->add_option("files", options.files, "snapshots, FILE.npy or FILE.h5:/path")->required();
-  analyze->add_option("--thresholds", options.thresholds, "FROM:TO:STEP or A,B,C")->required();
+  analyze->add_option("--thresholds", options.thresholds, "FROM:TO:STEP or A,B,C");
+  analyze->add_option("--quantiles", options.quantiles,
+                      "instead: shares of the material below each threshold, written the same way");
+  analyze->add_option("--voids", options.voids, "in chi: black (default), white, fill or exclude");
+  analyze->add_flag("--isoline", options.isoline, "lengths of interpolated boundaries too, in 2-D");
   analyze->add_option("--hot-spots", options.hot_spots,
                       "thresholds at which every hot spot is listed, written the same way");
   analyze->add_option("--field", options.field,
@@ -163,9 +167,12 @@ void declare_compare(Command& command, CLI::App& app) {
       ->required();
   compare->add_option("--field", options.field, "field (default temperature)");
   compare->add_option("--threshold", options.threshold,
-                      "threshold of the reference (default all that it measured)");
-  compare->add_option("--window", options.window,
-                      "BEGIN:END in seconds (default: to the end of loading of the slower run)");
+                      "thresholds of the reference, A,B,C (default all that it measured)");
+  compare->add_option(
+      "--window", options.window,
+      "BEGIN:END in seconds, or slower (default) or faster: to that run's end of loading");
+  compare->add_option("--time", options.time,
+                      "common (default), or loading: in units of each run's own loading time");
   compare->add_option("--chi", options.chi, "chi (default), chi4, chi6 or chi_paper");
   compare->add_option("--length", options.length,
                       "unit of length in metres (default: the pixel, the same in all runs)");

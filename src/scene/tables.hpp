@@ -243,6 +243,16 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
       "pixel", morphology.pixel,
       {positive, "m",
        "cell times 1/8 ... 8, by default the cell; lagrangian: cell/particles_per_cell"});
+  const Names<MapVoids> voids{{"black", MapVoids::black},
+                              {"white", MapVoids::white},
+                              {"fill", MapVoids::fill},
+                              {"exclude", MapVoids::exclude}};
+  choice(visitor, "voids", morphology.voids, voids,
+         {"in chi: cold, hot, like the nearest material, or left out"});
+  const Names<BoundaryLength> lengths{{"pixels", BoundaryLength::pixels},
+                                      {"isoline", BoundaryLength::isoline}};
+  choice(visitor, "length", morphology.length, lengths,
+         {"of boundaries: L and L_crofton from pixels; isoline adds L_isoline, in 2-D"});
   std::vector<std::string> names;
   for (const MorphologyField& field : morphology.fields) names.push_back(field.name);
   visitor.names("fields", names, morphology_fields, {"fields to measure"});

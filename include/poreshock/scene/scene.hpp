@@ -23,6 +23,8 @@ enum class VelocityTransfer { pic, flip, apic, fmpm };
 enum class VelocityUpdate { usl, musl };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class MapLattice { eulerian, lagrangian };
+enum class MapVoids { black, white, fill, exclude };
+enum class BoundaryLength { pixels, isoline };
 enum class Precision { double_precision, single_precision };
 
 /// The block of background cells.
@@ -143,7 +145,9 @@ struct Morphology {
   double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3); the site if lagrangian
   std::vector<MorphologyField> fields;
   MapLattice lattice = MapLattice::eulerian;  ///< pixels in space, or sites of the initial lattice
-  bool domains = false;                       ///< count hot and cold domains at all thresholds
+  MapVoids voids = MapVoids::black;           ///< in the Euler characteristic
+  BoundaryLength length = BoundaryLength::pixels;  ///< isoline: of interpolated boundaries too
+  bool domains = false;                            ///< count hot and cold domains at all thresholds
   bool operator==(const Morphology&) const = default;
 };
 
