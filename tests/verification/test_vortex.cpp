@@ -3,6 +3,8 @@
 // body force that this motion needs. The elastic law of the program, the rotation of each step by
 // the polar factor of its deformation, is the Jaumann rate as the step goes to zero.
 
+#include <numeric>
+
 #include "verification/states.hpp"
 
 namespace poreshock::test {
