@@ -9,7 +9,7 @@ from faults import SCENE, FaultTest, tell
 from program import closing_lines
 
 # All optional state at once: conducted heat, back stress, spall; heat flows, voids collapse, material escapes.
-LONG = (SCENE.replace("max_steps = 700", "max_steps = 2000").replace("end = 500e-9", "end = 1e-6")
+LONG = (SCENE.replace("max_steps = 450", "max_steps = 2000").replace("end = 500e-9", "end = 1e-6")
         .replace("title", 'thermal = "paper"\ntitle').replace("every_steps = 50", "every_steps = 37")
         .replace("snapshot = 10e-9", "snapshot = 100e-9").replace("beat = 2.5e-9", "beat = 5e-9")
         .replace("every = 2.5e-9", "every = 5e-9").replace("[checkpoint]", "domains = true\n[conduction]\non = true\n[checkpoint]")
