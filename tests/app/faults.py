@@ -32,7 +32,7 @@ void_radius = 25e-6
 velocity = 1500
 [time]
 end = 500e-9
-max_steps = 700
+max_steps = 450
 [output]
 beat = 2.5e-9
 snapshot = 10e-9

@@ -150,7 +150,7 @@ TEST(Messages, Overrides) {
             "--set time.end=soon: time.end: found \"soon\", allowed a number > 0 (s)");
   EXPECT_EQ(
       override_problems("time.ends=1e-7"),
-      "--set time.ends=1e-7: time.ends: unknown key, allowed end, cfl, max_steps, did you mean "
+      "--set time.ends=1e-7: time.ends: unknown key, allowed end, cfl, max_steps, sleep, did you mean "
       "\"end\"?");
   EXPECT_EQ(override_problems("time.end"),
             "--set time.end: found no value, allowed table.key=value such as time.end=2e-7");

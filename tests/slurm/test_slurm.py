@@ -15,7 +15,7 @@ from program import PROGRAM, ROOT, ProgramTest, Result, closing_lines, history  
 # minutes and a notice of 70 s a job is stopped 20 to 50 s after its start.
 LIMIT, NOTICE = "2", "B:USR1@70"
 
-LONG = SCENE.replace("max_steps = 700", "max_steps = 0").replace("end = 500e-9", "end = 1e-3").replace(
+LONG = SCENE.replace("max_steps = 450", "max_steps = 0").replace("end = 500e-9", "end = 1e-3").replace(
     "snapshot = 10e-9", "snapshot = 100e-9").replace('high = "free"', 'high = "wall"')
 
 
@@ -98,7 +98,7 @@ class Slurm(ProgramTest):
             self.assert_same_datasets(f"poreshock/out/{name}", f"whole/{name}")
 
     def test_single_run_and_array(self):
-        (self.tree / "short.toml").write_text(SCENE.replace("max_steps = 700", "max_steps = 60"))
+        (self.tree / "short.toml").write_text(SCENE.replace("max_steps = 450", "max_steps = 60"))
         print(self.submit("--time=5", "jobscripts/slurm.sh", "short.toml", "single", "--quiet"), flush=True)
         (self.tree / "sweep").write_text("".join(f"--quiet --set loading.velocity={v}\n" for v in (700, 1500)))
         print(self.submit("--time=5", "--array=1-2", "jobscripts/slurm_array.sh", "short.toml", "sweep_out", "sweep"),
