@@ -12,6 +12,7 @@
 #include "poreshock/output/info.hpp"
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/scene/compare_scenes.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/run.hpp"
 
@@ -33,26 +34,14 @@ Scene read_everywhere(const Command& command, MPI_Comm communicator) {
   return parse_scene(text, command.file);
 }
 
-/// Tables in which two scenes of one dimension differ physically.
-std::string differences(const Scene& a, const Scene& b) {
-  const std::pair<const char*, bool> tables[] = {{"thermal", a.thermal == b.thermal},
-                                                 {"domain", a.domain == b.domain},
-                                                 {"boundary", a.boundary == b.boundary},
-                                                 {"material", a.materials == b.materials},
-                                                 {"sample", a.sample == b.sample},
-                                                 {"body", a.bodies == b.bodies},
-                                                 {"void", a.voids == b.voids},
-                                                 {"loading", a.loading == b.loading},
-                                                 {"body_force", a.body_force == b.body_force},
-                                                 {"transfer", a.transfer == b.transfer},
-                                                 {"viscosity", a.viscosity == b.viscosity},
-                                                 {"time.cfl", a.time.cfl == b.time.cfl},
-                                                 {"output.beat", a.output.beat == b.output.beat}};
+/// What a scene has that the checkpoint's may not differ from, by key; empty when it may go on.
+std::string differences(const Scene& now, const Scene& allowed) {
+  if (now == allowed) return {};
   std::string names;
-  for (const auto& [name, same] : tables) {
-    if (!same) names.append(names.empty() ? "" : ", ").append(name);
+  for (const std::string& key : different_keys(now, allowed)) {
+    names.append(names.empty() ? "" : ", ").append(key);
   }
-  return names.empty() ? "another table" : names;
+  return names.empty() ? "a setting that is not written out" : names;
 }
 
 /// The stored scene with all that may differ on a restart taken from the scene of now.
@@ -78,9 +67,10 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
                      "-D run, the scene asks for " + std::to_string(now.dimension) + "-D");
   }
   const Scene stored = parse_scene(header.scene_text, path);
-  if (with_free_settings(stored, now) != now) {
+  const std::string names = differences(now, with_free_settings(stored, now));
+  if (!names.empty()) {
     throw InputError(
-        path + " was written by a scene that differs in " + differences(now, stored) +
+        path + " was written by a scene that differs in " + names +
         "; allowed are differences in the title, time.end, time.max_steps, output, "
         "checkpoint, profile and morphology: restart with the scene.toml beside it, or start a "
         "new run");

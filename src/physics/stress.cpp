@@ -163,11 +163,15 @@ template <int Dim>
 void initialise_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                        Particles<Dim>& particles, StressReport& report) {
   // A step of no length: all rates are zero, so only pressure, viscosity and the limit are set.
+  constexpr std::size_t chunk = 4096;
   StepData<Dim> still;
-  resize_ordered(particles.size(), settings.averaging, still);
-  std::vector<std::uint32_t> places(particles.size());
-  std::iota(places.begin(), places.end(), 0U);
-  update_stress<Dim>(materials, settings, still, 0.0, places, particles, report);
+  resize_ordered(chunk, settings.averaging, still);
+  std::vector<std::uint32_t> places;
+  for (std::size_t first = 0; first < particles.size(); first += chunk) {
+    places.resize(std::min(chunk, particles.size() - first));
+    std::iota(places.begin(), places.end(), static_cast<std::uint32_t>(first));
+    update_stress<Dim>(materials, settings, still, 0.0, places, particles, report);
+  }
 }
 
 template void update_stress<2>(const std::vector<Material>&, const StressSettings<2>&,

@@ -45,6 +45,7 @@ void visit_boundary(Visitor& visitor, Scene& scene) {
 
 template <typename Visitor>
 void visit_material(Visitor& visitor, MaterialParameters& material) {
+  constexpr Range up_to_20{.low = 0.0, .high = 20.0};
   constexpr Range below_half{.low = 0.0, .high = 0.5, .below_high = true};
   const Names<PlasticHeat> heats{{"work", PlasticHeat::work},
                                  {"dissipation", PlasticHeat::dissipation}};
@@ -68,9 +69,9 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
   visitor.number("c0", material.c0,
                  {positive, "m/s", "bulk sound speed, of Us = c0 + lambda Up", Need::required});
   visitor.number("lambda", material.lambda,
-                 {{.low = 1.0}, "", "slope of Us = c0 + lambda Up", Need::required});
+                 {{.low = 1.0, .high = 20.0}, "", "slope of Us = c0 + lambda Up", Need::required});
   visitor.number("gamma", material.gamma,
-                 {not_negative, "", "Grueneisen coefficient, constant", Need::required});
+                 {up_to_20, "", "Grueneisen coefficient, constant", Need::required});
   visitor.number("cv", material.cv, {positive, "J/(kg K)", "specific heat", Need::required});
   visitor.number("conductivity", material.conductivity,
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
@@ -106,8 +107,9 @@ void visit_sample(Visitor& visitor, Scene& scene) {
   choice(visitor, "porosity_definition", sample.porosity_definition, definitions,
          {"void volume over all volume, or over solid volume"});
   visitor.number("void_radius", sample.void_radius, {not_negative, "m", "median radius of a void"});
-  visitor.number("void_spread", sample.void_spread,
-                 {not_negative, "", "standard deviation of ln(radius); 0 = all equal"});
+  visitor.number(
+      "void_spread", sample.void_spread,
+      {{.low = 0.0, .high = 2.0}, "", "standard deviation of ln(radius); 0 = all equal"});
   visitor.number("ligament", sample.ligament,
                  {not_negative, "m", "least solid between two voids; not with overlap"});
   visitor.number("keep_out", sample.keep_out,

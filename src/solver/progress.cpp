@@ -76,8 +76,8 @@ std::string progress_row(const Clock& clock, double end, const EnergyStatus& ene
   return text;
 }
 
-Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progress& progress,
-                      MPI_Comm communicator) {
+Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t particles,
+                      const Progress& progress, MPI_Comm communicator) {
   Timings timings;
   timings.ranks = size(communicator);
   timings.wall_seconds = MPI_Wtime() - progress.start_wall;
@@ -87,6 +87,10 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progre
   timings.rate_per_core = timings.wall_seconds > 0.0 ? static_cast<double>(timings.particle_steps) /
                                                            (timings.wall_seconds * timings.ranks)
                                                      : 0.0;
+  const std::int64_t memory = sum(peak_memory() - progress.start_memory, communicator);
+  const std::int64_t all = sum(particles, communicator);
+  timings.bytes_per_particle =
+      all > 0 ? static_cast<double>(memory) / static_cast<double>(all) : 0.0;
   timings.phases = gather_phases(phases, communicator);
   return timings;
 }
@@ -112,7 +116,9 @@ std::string timings_table(const Timings& timings) {
                       static_cast<double>(timings.particle_steps));
     table += line;
   }
-  return table;
+  std::snprintf(line, sizeof line, "at most %.0f bytes per particle beyond the empty program\n",
+                timings.bytes_per_particle);
+  return table + line;
 }
 
 }  // namespace poreshock

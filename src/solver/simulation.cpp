@@ -9,6 +9,7 @@
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/momentum.hpp"
 #include "poreshock/scene/read_scene.hpp"
+#include "poreshock/solver/check_state.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/average.hpp"
@@ -43,6 +44,7 @@ Vector<Dim> grid_velocity(const Scene& scene) {
 template <int Dim>
 Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim;
+  make_grid_shape(scene);  // refuses a grid that PETSc cannot count, before anything is made
   sim.scene = scene;
   sim.scene_text = write_scene(scene);
   sim.communicator = communicator;
@@ -152,6 +154,7 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   fill<Dim>(scene, {layers * me / ranks, layers * (me + 1) / ranks}, sim.particles, report);
   sim.sample = total(report, communicator);
   rebalance(0.0, sim);
+  release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   StressReport stress;
@@ -167,7 +170,9 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   Simulation<Dim> sim = prepare<Dim>(scene, communicator);
   std::string stored_scene;
   RunState state;
+  const ParticleOptions expected = sim.particles.options;
   read_checkpoint<Dim>(path, communicator, stored_scene, state, sim.particles);
+  require_sound_state(path, scene, expected, state, sim.particles, communicator);
   if (state.integers.size() != run_state_integers(sim)) {
     throw InputError(path + ": written by another version of this program, its ledger has " +
                      std::to_string(state.integers.size()) + " numbers instead of " +
