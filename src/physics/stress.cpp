@@ -163,6 +163,7 @@ template <int Dim>
 void initialise_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                        Particles<Dim>& particles, StressReport& report) {
   // A step of no length: all rates are zero, so only pressure, viscosity and the limit are set.
+  report = {};
   constexpr std::size_t chunk = 4096;
   StepData<Dim> still;
   resize_ordered(chunk, settings.averaging, still);

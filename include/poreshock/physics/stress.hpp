@@ -44,7 +44,8 @@ void update_stress(const std::vector<Material>& materials, const StressSettings<
                    const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                    Particles<Dim>& particles, StressReport& report);
 
-/// Pressure, viscosity zero, and the stable step of the initial state. Not collective.
+/// Pressure, viscosity zero, and the stable step of the initial state, in a new report. Not
+/// collective.
 template <int Dim>
 void initialise_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                        Particles<Dim>& particles, StressReport& report);
