@@ -46,6 +46,8 @@ std::string differences(const Scene& a, const Scene& b) {
                                                  {"body_force", a.body_force == b.body_force},
                                                  {"transfer", a.transfer == b.transfer},
                                                  {"viscosity", a.viscosity == b.viscosity},
+                                                 {"conduction", a.conduction == b.conduction},
+                                                 {"contact", a.contact == b.contact},
                                                  {"time.cfl", a.time.cfl == b.time.cfl},
                                                  {"output.beat", a.output.beat == b.output.beat}};
   std::string names;
