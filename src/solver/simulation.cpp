@@ -206,11 +206,12 @@ void advance(Simulation<Dim>& sim, double dt) {
   }
   if (averaging) {
     const Phase phase(sim.phases, PhaseName::average);
-    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages, sim.step_data);
+    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages);
   }
   {
     const Phase phase(sim.phases, PhaseName::grid_to_particles);
-    grid_to_particles(*sim.grid, sim.cells, transfer, sim.stress_settings.grid_velocity, dt,
+    grid_to_particles(*sim.grid, sim.averages.get(), sim.cells, transfer,
+                      sim.stress_settings.grid_velocity, dt,
                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
                       sim.ledger.transfer_heat);
   }

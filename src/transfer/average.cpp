@@ -1,7 +1,7 @@
 #include "poreshock/transfer/average.hpp"
 
+#include "poreshock/transfer/blocks.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
-#include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {
 
@@ -19,74 +19,86 @@ void divide_by_volume(SlabGrid& averages) {
   averages.fill_periodic_images();
 }
 
-template <int Dim, class Spline, class Quantities>
-void scatter_averages(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                      Quantities&& quantities, SlabGrid& averages) {
-  scatter<Dim>(
+template <int Dim, class Spline>
+void pressure_sweeps(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+                     double share, SlabGrid& averages, StepData<Dim>& step) {
+  scatter_values<Dim, 2>(
       spline, particles, cells,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
+      [&](std::uint32_t p) {
+        const double total = particles.pressure[p] + particles.viscous_pressure[p];
         const double volume = particles.mass[p] / particles.density[p];
-        const Lanes q = volume * quantities(p);
-        add_weighted<Dim, Spline>(stencil, q, sums);
+        step.averaged_pressure[p] = total;
+        return std::array{volume, volume * total};
       },
       averages);
   averages.exchange();
   divide_by_volume(averages);
+  gather_blocks<Dim, 1>(
+      spline, particles, cells, averages, {AverageLane::pressure},
+      [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, const auto& nodes) {
+        double& pressure = step.averaged_pressure[p];
+        pressure = (1.0 - share) * pressure + share * interpolate<Dim, Spline>(w, nodes[0]);
+      });
 }
 
-template <int Dim, class Spline>
-void pressure_sweeps(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                     double share, SlabGrid& averages, StepData<Dim>& step) {
-  const auto total = [&](std::uint32_t p) {
-    return particles.pressure[p] + particles.viscous_pressure[p];
-  };
-  scatter_averages<Dim>(
-      spline, particles, cells,
-      [&](std::uint32_t p) {
-        return Lanes{1.0, total(p)};
-      },
-      averages);
-  gather<Dim>(spline, particles, cells, averages,
-              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-                const double average =
-                    interpolate<Dim, Spline>(stencil, nodes)[AverageLane::pressure];
-                step.averaged_pressure[p] = (1.0 - share) * total(p) + share * average;
-              });
+/// Divergences of the nodal velocities at one particle, at the end of the step and in its middle.
+template <int Dim, class Spline, class Nodes>
+inline std::array<double, 2> divergences(const BlockWeights<Dim, Spline>& w, const Nodes& nodes,
+                                         double inverse_cell) {
+  Lanes end{}, start{};
+  for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) {
+    for (int a = 0; a < Dim; ++a) {
+      const Lanes slope = slope_in<Dim, Spline>(w, a, b);
+      end = fused(slope, nodes[a][b], end);
+      start = fused(slope, nodes[Dim + a][b], start);
+    }
+  }
+  constexpr double inverse_scale = 1.0 / total_scale<Dim, Spline>;
+  const double at_end = sum_of_lanes(end) * (inverse_scale * inverse_cell);
+  const double at_start = sum_of_lanes(start) * (inverse_scale * inverse_cell);
+  return {at_end, 0.5 * (at_start + at_end)};
 }
 
+/// Scatters volume, volume x div v' and volume x div v_mid.
 template <int Dim, class Spline>
-void dilatation_sweeps(const Spline& spline, const Particles<Dim>& particles,
-                       const CellOrder& cells, double share, const SlabGrid& grid,
-                       SlabGrid& averages, StepData<Dim>& step) {
+void scatter_dilatation(const Spline& spline, const Particles<Dim>& particles,
+                        const CellOrder& cells, const SlabGrid& grid, SlabGrid& averages) {
   using Lane = MotionLane<Dim>;
+  constexpr int velocities = 2 * Dim, blocks = stencil_blocks<Dim, Spline>;
   const double inverse_cell = 1.0 / grid.shape().cell;
-  gather<Dim>(spline, particles, cells, grid,
-              [&](std::uint32_t p, const Stencil<Dim, Spline>& s, const Lanes* nodes) {
-                double end = 0.0, start = 0.0;
-                for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-                  for (int a = 0; a < Dim; ++a) {
-                    const double slope = node_slope<Dim, Spline>(s, n, a);
-                    end += slope * nodes[n][Lane::end_velocity + a];
-                    start += slope * nodes[n][Lane::start_velocity + a];
-                  }
-                }
-                step.dilatation_end[p] = end * inverse_cell;
-                step.dilatation_mid[p] = 0.5 * (start + end) * inverse_cell;
-              });
-  scatter_averages<Dim>(
-      spline, particles, cells,
-      [&](std::uint32_t p) {
-        return Lanes{1.0, 0.0, step.dilatation_end[p], step.dilatation_mid[p]};
+  std::array<int, velocities> lanes;
+  for (int a = 0; a < Dim; ++a) {
+    lanes[a] = Lane::end_velocity + a;
+    lanes[Dim + a] = Lane::start_velocity + a;
+  }
+  BlockReader<Dim, Spline, velocities> reader(grid, lanes);
+  scatter_blocks<Dim, 3>(
+      spline, particles, cells, [&](int row, int lateral) { reader.load(row, lateral); },
+      [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
+        const auto [end, mid] = divergences<Dim, Spline>(w, reader.nodes, inverse_cell);
+        const double volume = unscaled<Dim, Spline>(particles.mass[p] / particles.density[p]);
+        const double volume_end = volume * end, volume_mid = volume * mid;
+        for (int b = 0; b < blocks; ++b) {
+          const Lanes weight = value_in<Dim, Spline>(w, b);
+          sums[AverageLane::volume][b] = fused(volume, weight, sums[AverageLane::volume][b]);
+          sums[AverageLane::end][b] = fused(volume_end, weight, sums[AverageLane::end][b]);
+          sums[AverageLane::mid][b] = fused(volume_mid, weight, sums[AverageLane::mid][b]);
+        }
       },
       averages);
-  gather<Dim>(spline, particles, cells, averages,
-              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-                const Lanes average = interpolate<Dim, Spline>(stencil, nodes);
-                step.dilatation_end[p] =
-                    (1.0 - share) * step.dilatation_end[p] + share * average[AverageLane::end];
-                step.dilatation_mid[p] =
-                    (1.0 - share) * step.dilatation_mid[p] + share * average[AverageLane::mid];
-              });
+}
+
+/// Puts the averages beside the motion of the nodes, so that one gather takes both.
+void join_motion(const SlabGrid& averages, SlabGrid& grid) {
+  using Lane = MotionLane<2>;
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    const Lanes* source = averages.row(row);
+    Lanes* nodes = grid.row(row);
+    for (int i = 0; i < grid.shape().row_size; ++i) {
+      nodes[i][Lane::dilatation_end] = source[i][AverageLane::end];
+      nodes[i][Lane::dilatation_mid] = source[i][AverageLane::mid];
+    }
+  }
 }
 
 }  // namespace
@@ -101,11 +113,13 @@ void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
 
 template <int Dim>
 void average_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
-                        const Transfer& transfer, const SlabGrid& grid, SlabGrid& averages,
-                        StepData<Dim>& step) {
+                        const Transfer& transfer, SlabGrid& grid, SlabGrid& averages) {
   with_shape(transfer, [&](const auto& spline) {
-    dilatation_sweeps<Dim>(spline, particles, cells, transfer.averaging, grid, averages, step);
+    scatter_dilatation<Dim>(spline, particles, cells, grid, averages);
   });
+  averages.exchange();
+  divide_by_volume(averages);
+  if constexpr (Dim == 2) join_motion(averages, grid);
 }
 
 template void average_pressure<2>(const Particles<2>&, const CellOrder&, const Transfer&, SlabGrid&,
@@ -113,8 +127,8 @@ template void average_pressure<2>(const Particles<2>&, const CellOrder&, const T
 template void average_pressure<3>(const Particles<3>&, const CellOrder&, const Transfer&, SlabGrid&,
                                   StepData<3>&);
 template void average_dilatation<2>(const Particles<2>&, const CellOrder&, const Transfer&,
-                                    const SlabGrid&, SlabGrid&, StepData<2>&);
+                                    SlabGrid&, SlabGrid&);
 template void average_dilatation<3>(const Particles<3>&, const CellOrder&, const Transfer&,
-                                    const SlabGrid&, SlabGrid&, StepData<3>&);
+                                    SlabGrid&, SlabGrid&);
 
 }  // namespace poreshock

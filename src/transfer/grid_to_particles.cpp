@@ -7,7 +7,7 @@ namespace poreshock {
 
 namespace {
 
-/// Moments of the nodal lanes over a stencil: values, gradients (per cell), first moments (cells).
+/// Moments of the nodal lanes over a stencil: values, gradients (per m), first moments (cells).
 template <int Dim>
 struct Moments {
   Lanes value;
@@ -15,66 +15,195 @@ struct Moments {
   std::array<Lanes, Dim> moment;
 };
 
-template <class Spline, bool Affine>
-inline Moments<2> moments(const Stencil<2, Spline>& s, const Lanes* nodes) {
-  constexpr int w = Spline::width;
-  const AxisWeights<w>& x = s.axis[0];
-  const AxisWeights<w>& y = s.axis[1];
+/// Weights of one particle along its axes, times `scale` each: value, slope, value times offset.
+template <int Dim>
+struct PointWeights {
+  double value[2 * lane_count], slope[2 * lane_count], moment[2 * lane_count];  ///< 4 per axis
+  const Lanes* averages = nullptr;  ///< node of the averages at the base of the stencil, 3-D only
+};
+
+template <int Dim, class Spline>
+inline PointWeights<Dim> point_weights(const Spline& spline, const Particles<Dim>& particles,
+                                       std::uint32_t p, const std::array<int, Dim>& base,
+                                       double inverse_cell) {
+  PointWeights<Dim> w;
+  const auto local = [&](int a) {
+    return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
+  };
+  const auto store = [&w](const AxisLanes& lanes, int first) {
+    *reinterpret_cast<Lanes*>(w.value + first) = lanes.value;
+    *reinterpret_cast<Lanes*>(w.slope + first) = lanes.slope;
+    *reinterpret_cast<Lanes*>(w.moment + first) = lanes.value * lanes.offset;
+  };
+  store(weights_of_two(spline, local(0), local(1)), 0);
+  if constexpr (Dim == 3) store(weights_of_two(spline, local(2), local(2)), lane_count);
+  return w;
+}
+
+/// Scaled averages of the dilatation at one particle, 3-D.
+template <class Spline>
+inline Lanes averages_at(const PointWeights<3>& w, const GridShape& shape) {
+  Lanes sum{};
+  for (int n = 0; n < stencil_nodes<3, Spline>; ++n) {
+    constexpr int width = Spline::width;
+    const double plane = w.value[n % width] * w.value[4 + (n / width) % width];
+    sum = fused(plane * w.value[8 + n / (width * width)],
+                w.averages[node_offset<3, Spline>(shape, n)], sum);
+  }
+  return sum;
+}
+
+/// Moments in one plane of nodes.
+template <int Dim, class Spline, bool Affine>
+inline Moments<2> plane_moments(const PointWeights<Dim>& w, const Lanes* nodes) {
+  constexpr int width = Spline::width;
+  const double* const y = w.value + 4;
   Moments<2> m{};
 #pragma GCC unroll 4
-  for (int j = 0; j < w; ++j) {
-    Lanes value{}, slope{}, moment{};
+  for (int j = 0; j < width; ++j) {
+    const Lanes& first = nodes[j * width];
+    Lanes value = w.value[0] * first, slope = w.slope[0] * first, moment{};
+    if constexpr (Affine) moment = w.moment[0] * first;
 #pragma GCC unroll 4
-    for (int i = 0; i < w; ++i) {
-      value += x.value[i] * nodes[j * w + i];
-      slope += x.slope[i] * nodes[j * w + i];
-      if constexpr (Affine) moment += (x.value[i] * x.offset[i]) * nodes[j * w + i];
+    for (int i = 1; i < width; ++i) {
+      const Lanes& node = nodes[j * width + i];
+      value = fused(w.value[i], node, value);
+      slope = fused(w.slope[i], node, slope);
+      if constexpr (Affine) moment = fused(w.moment[i], node, moment);
     }
-    m.value += y.value[j] * value;
-    m.gradient[0] += y.value[j] * slope;
-    m.gradient[1] += y.slope[j] * value;
+    m.value = fused(y[j], value, m.value);
+    m.gradient[0] = fused(y[j], slope, m.gradient[0]);
+    m.gradient[1] = fused(w.slope[4 + j], value, m.gradient[1]);
     if constexpr (Affine) {
-      m.moment[0] += y.value[j] * moment;
-      m.moment[1] += (y.value[j] * y.offset[j]) * value;
+      m.moment[0] = fused(y[j], moment, m.moment[0]);
+      m.moment[1] = fused(w.moment[4 + j], value, m.moment[1]);
     }
   }
   return m;
 }
 
-template <class Spline, bool Affine>
-inline Moments<3> moments(const Stencil<3, Spline>& s, const Lanes* nodes) {
-  constexpr int w = Spline::width;
-  Moments<3> m{};
-  for (int k = 0; k < w; ++k) {
-    const Stencil<2, Spline> plane = {{s.axis[0], s.axis[1]}};
-    const Moments<2> p = moments<Spline, Affine>(plane, nodes + k * w * w);
-    m.value += s.axis[2].value[k] * p.value;
-    m.gradient[0] += s.axis[2].value[k] * p.gradient[0];
-    m.gradient[1] += s.axis[2].value[k] * p.gradient[1];
-    m.gradient[2] += s.axis[2].slope[k] * p.value;
+template <int Dim, class Spline, bool Affine>
+inline Moments<Dim> scaled_moments(const PointWeights<Dim>& w, const Lanes* nodes) {
+  if constexpr (Dim == 2) {
+    return plane_moments<2, Spline, Affine>(w, nodes);
+  } else {
+    constexpr int width = Spline::width;
+    Moments<3> m{};
+    for (int k = 0; k < width; ++k) {
+      const Moments<2> p = plane_moments<3, Spline, Affine>(w, nodes + k * width * width);
+      const double z = w.value[8 + k];
+      m.value = fused(z, p.value, m.value);
+      m.gradient[0] = fused(z, p.gradient[0], m.gradient[0]);
+      m.gradient[1] = fused(z, p.gradient[1], m.gradient[1]);
+      m.gradient[2] = fused(w.slope[8 + k], p.value, m.gradient[2]);
+      if constexpr (Affine) {
+        m.moment[0] = fused(z, p.moment[0], m.moment[0]);
+        m.moment[1] = fused(z, p.moment[1], m.moment[1]);
+        m.moment[2] = fused(w.moment[8 + k], p.value, m.moment[2]);
+      }
+    }
+    return m;
+  }
+}
+
+/// Moments of up to eight particles, a particle a lane.
+template <int Dim>
+struct GroupMoments {
+  std::array<Lanes, lane_count> value;                      ///< [lane of the nodes]
+  std::array<std::array<Lanes, lane_count>, Dim> gradient;  ///< [direction][lane], per m
+  std::array<std::array<Lanes, lane_count>, Dim> moment;    ///< [direction][lane], cells
+  Lanes dilatation_end, dilatation_mid;                     ///< averaged, 1/s
+};
+
+/// Turns the scaled moments of a group into true ones, a particle a lane.
+template <int Dim, class Spline, bool Affine>
+inline GroupMoments<Dim> group_moments(const Moments<Dim>* particles, double inverse_cell) {
+  GroupMoments<Dim> g;
+  const auto turn = [](auto&& part, std::array<Lanes, lane_count>& result) {
+    for (int n = 0; n < lane_count; ++n) result[n] = part(n);
+    transpose(result.data());
+  };
+  turn([&](int n) { return particles[n].value; }, g.value);
+  if constexpr (Dim == 2) {
+    // Only velocities have gradients and moments: four lanes of each vector, so two share one.
+    std::array<Lanes, lane_count> pair;
+    turn(
+        [&](int n) {
+          return join(low_half(particles[n].gradient[0]), low_half(particles[n].gradient[1]));
+        },
+        pair);
+    for (int k = 0; k < 4; ++k) g.gradient[0][k] = pair[k], g.gradient[1][k] = pair[4 + k];
     if constexpr (Affine) {
-      m.moment[0] += s.axis[2].value[k] * p.moment[0];
-      m.moment[1] += s.axis[2].value[k] * p.moment[1];
-      m.moment[2] += (s.axis[2].value[k] * s.axis[2].offset[k]) * p.value;
+      turn(
+          [&](int n) {
+            return join(low_half(particles[n].moment[0]), low_half(particles[n].moment[1]));
+          },
+          pair);
+      for (int k = 0; k < 4; ++k) g.moment[0][k] = pair[k], g.moment[1][k] = pair[4 + k];
+    }
+  } else {
+    for (int k = 0; k < Dim; ++k) {
+      turn([&](int n) { return particles[n].gradient[k]; }, g.gradient[k]);
+      if constexpr (Affine) turn([&](int n) { return particles[n].moment[k]; }, g.moment[k]);
     }
   }
-  return m;
+  constexpr double inverse_scale = 1.0 / total_scale<Dim, Spline>;
+  for (Lanes& x : g.value) x = unscaled<Dim, Spline>(x);
+  for (int k = 0; k < Dim; ++k) {
+    for (int a = 0; a < 2 * Dim; ++a) g.gradient[k][a] *= inverse_scale * inverse_cell;
+    if constexpr (Affine) {
+      for (int a = 0; a < Dim; ++a) g.moment[k][a] *= inverse_scale;
+    }
+  }
+  return g;
+}
+
+/// Averaged dilatation of a group: in 2-D two lanes of the motion, in 3-D gathered apart.
+template <int Dim, class Spline>
+inline void take_averages(std::array<Lanes, lane_count>& averages, GroupMoments<Dim>& m) {
+  if constexpr (Dim == 2) {
+    m.dilatation_end = m.value[MotionLane<2>::dilatation_end];
+    m.dilatation_mid = m.value[MotionLane<2>::dilatation_mid];
+  } else {
+    transpose(averages.data());
+    m.dilatation_end = unscaled<Dim, Spline>(averages[AverageLane::end]);
+    m.dilatation_mid = unscaled<Dim, Spline>(averages[AverageLane::mid]);
+  }
+}
+
+/// Eight particles in canonical order; an incomplete group repeats its last one.
+struct Group {
+  std::array<std::uint32_t, lane_count> particles;
+  int count;  ///< distinct ones
+};
+
+inline Lanes load(const std::vector<double>& column, const Group& group) {
+  double values[lane_count];
+  for (int n = 0; n < lane_count; ++n) values[n] = column[group.particles[n]];
+  return *reinterpret_cast<const Lanes*>(values);
+}
+
+inline void store(const Lanes& lanes, const Group& group, std::vector<double>& column) {
+  double values[lane_count];
+  *reinterpret_cast<Lanes*>(values) = lanes;
+  double* const target = column.data();
+  for (int n = 0; n < lane_count; ++n) target[group.particles[n]] = values[n];
 }
 
 /// Velocity by APIC; returns the kinetic energy per mass the projection onto (v, C) loses.
 template <int Dim, class Spline>
-inline double apply_apic(const Moments<Dim>& m, double cell, std::uint32_t p,
-                         Particles<Dim>& particles) {
+inline Lanes apply_apic(const GroupMoments<Dim>& m, double cell, const Group& group,
+                        Particles<Dim>& particles) {
   using Lane = MotionLane<Dim>;
-  double kept = 0.0, spin = 0.0;
+  Lanes kept{}, spin{};
   const double scale = Spline::inverse_inertia / cell;  // moments are in cells
   for (int a = 0; a < Dim; ++a) {
-    const double v = m.value[Lane::end_velocity + a];
-    particles.velocity[a][p] = v;
+    const Lanes v = m.value[Lane::end_velocity + a];
+    store(v, group, particles.velocity[a]);
     kept += v * v;
     for (int k = 0; k < Dim; ++k) {
-      const double moment = m.moment[k][Lane::end_velocity + a];
-      particles.affine[a * Dim + k][p] = scale * moment;
+      const Lanes moment = m.moment[k][Lane::end_velocity + a];
+      store(scale * moment, group, particles.affine[a * Dim + k]);
       spin += moment * moment;
     }
   }
@@ -83,11 +212,11 @@ inline double apply_apic(const Moments<Dim>& m, double cell, std::uint32_t p,
 
 /// Velocity by PIC; returns the kinetic energy per mass the interpolation loses.
 template <int Dim>
-inline double apply_pic(const Moments<Dim>& m, std::uint32_t p, Particles<Dim>& particles) {
-  double kept = 0.0;
+inline Lanes apply_pic(const GroupMoments<Dim>& m, const Group& group, Particles<Dim>& particles) {
+  Lanes kept{};
   for (int a = 0; a < Dim; ++a) {
-    const double v = m.value[MotionLane<Dim>::end_velocity + a];
-    particles.velocity[a][p] = v;
+    const Lanes v = m.value[MotionLane<Dim>::end_velocity + a];
+    store(v, group, particles.velocity[a]);
     kept += v * v;
   }
   return m.value[MotionLane<Dim>::kinetic] - 0.5 * kept;
@@ -95,51 +224,23 @@ inline double apply_pic(const Moments<Dim>& m, std::uint32_t p, Particles<Dim>& 
 
 /// Velocity by FLIP with damping towards the grid; returns the kinetic energy per mass it loses.
 template <int Dim>
-inline double apply_flip(const Moments<Dim>& m, double damped, std::uint32_t p,
-                         Particles<Dim>& particles) {
+inline Lanes apply_flip(const GroupMoments<Dim>& m, double damped, const Group& group,
+                        Particles<Dim>& particles) {
   using Lane = MotionLane<Dim>;
-  double increment2 = 0.0, noise2 = 0.0, product = 0.0;
+  Lanes increment2{}, noise2{}, product{};
   for (int a = 0; a < Dim; ++a) {
-    const double start = m.value[Lane::start_velocity + a];
-    const double end = m.value[Lane::end_velocity + a];
-    const double increment = end - start;
-    const double noise = particles.velocity[a][p] - start;
+    const Lanes start = m.value[Lane::start_velocity + a];
+    const Lanes end = m.value[Lane::end_velocity + a];
+    const Lanes old = load(particles.velocity[a], group);
+    const Lanes increment = end - start;
+    const Lanes noise = old - start;
     increment2 += increment * increment;
     noise2 += noise * noise;
     product += start * end;
-    particles.velocity[a][p] =
-        (1.0 - damped) * (particles.velocity[a][p] + increment) + damped * end;
+    store((1.0 - damped) * (old + increment) + damped * end, group, particles.velocity[a]);
   }
   return m.value[Lane::kinetic] - 0.5 * increment2 +
          damped * ((1.0 - 0.5 * damped) * noise2 - product);
-}
-
-template <int Dim>
-inline void store_gradients(const Moments<Dim>& m, double inverse_cell, std::uint32_t p,
-                            StepData<Dim>& step) {
-  using Lane = MotionLane<Dim>;
-  std::array<std::array<double, Dim>, Dim> middle;
-  for (int a = 0; a < Dim; ++a) {
-    for (int k = 0; k < Dim; ++k) {
-      const double end = m.gradient[k][Lane::end_velocity + a] * inverse_cell;
-      const double start = m.gradient[k][Lane::start_velocity + a] * inverse_cell;
-      step.gradient[a * Dim + k][p] = end;
-      middle[a][k] = 0.5 * (start + end);
-    }
-  }
-  store_rate<Dim>(middle, p, step);
-}
-
-template <int Dim, VelocityTransfer Velocity, class Spline>
-inline double update_velocity(const Moments<Dim>& m, double cell, double damped, std::uint32_t p,
-                              Particles<Dim>& particles) {
-  if constexpr (Velocity == VelocityTransfer::apic) {
-    return apply_apic<Dim, Spline>(m, cell, p, particles);
-  } else if constexpr (Velocity == VelocityTransfer::pic) {
-    return apply_pic<Dim>(m, p, particles);
-  } else {
-    return apply_flip<Dim>(m, damped, p, particles);
-  }
 }
 
 /// What the sweep needs besides particles and nodes.
@@ -148,35 +249,114 @@ struct Motion {
   double damped;
   Vector<Dim> grid_velocity;
   double dt, inverse_quantum;
+  const SlabGrid* averages;  ///< null without averaging
+  double averaging;          ///< share
 };
+
+template <int Dim>
+inline void store_gradients(const GroupMoments<Dim>& m, const Motion<Dim>& motion,
+                            const Group& group, StepData<Dim>& step) {
+  using Lane = MotionLane<Dim>;
+  std::array<std::array<Lanes, Dim>, Dim> middle;
+  for (int a = 0; a < Dim; ++a) {
+    for (int k = 0; k < Dim; ++k) {
+      const Lanes end = m.gradient[k][Lane::end_velocity + a];
+      store(end, group, step.gradient[a * Dim + k]);
+      middle[a][k] = 0.5 * (m.gradient[k][Lane::start_velocity + a] + end);
+    }
+  }
+  const auto rate = symmetric_part<Dim>(middle);
+  for (int k = 0; k < rate_size<Dim>; ++k) store(rate[k], group, step.rate[k]);
+  if (motion.averages == nullptr) return;
+  Lanes end{}, mid{};
+  for (int a = 0; a < Dim; ++a) {
+    end += m.gradient[a][Lane::end_velocity + a];
+    mid += middle[a][a];
+  }
+  const double share = motion.averaging;
+  store((1.0 - share) * end + share * m.dilatation_end, group, step.dilatation_end);
+  store((1.0 - share) * mid + share * m.dilatation_mid, group, step.dilatation_mid);
+}
+
+template <int Dim, VelocityTransfer Velocity, class Spline>
+inline Lanes update_velocity(const GroupMoments<Dim>& m, double cell, double damped,
+                             const Group& group, Particles<Dim>& particles) {
+  if constexpr (Velocity == VelocityTransfer::apic) {
+    return apply_apic<Dim, Spline>(m, cell, group, particles);
+  } else if constexpr (Velocity == VelocityTransfer::pic) {
+    return apply_pic<Dim>(m, group, particles);
+  } else {
+    return apply_flip<Dim>(m, damped, group, particles);
+  }
+}
+
+/// Moves the particles of a group; returns the heat of the filter, quanta.
+template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
+inline Int128 move_group(const GroupMoments<Dim>& m, double cell, const Motion<Dim>& motion,
+                         const Group& group, Particles<Dim>& particles, StepData<Dim>& step) {
+  using Lane = MotionLane<Dim>;
+  const Lanes lost =
+      update_velocity<Dim, Velocity, Spline>(m, cell, motion.damped, group, particles);
+  for (int a = 0; a < Dim; ++a) {
+    const Lanes v = m.value[Lane::end_velocity + a];
+    if constexpr (Update == VelocityUpdate::musl) {
+      store(v, group, step.transport[a]);
+    } else {
+      const Lanes x = load(particles.position[a], group);
+      store(x + motion.dt * (v - motion.grid_velocity[a]), group, particles.position[a]);
+    }
+  }
+  store_gradients<Dim>(m, motion, group, step);
+  store(m.value[Lane::heat] + lost, group, step.heat);
+  const Lanes heat = load(particles.mass, group) * lost;
+  Int128 quanta = 0;
+  for (int n = 0; n < group.count; ++n) quanta += quantise(heat[n], motion.inverse_quantum);
+  return quanta;
+}
 
 template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
 void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
            const Motion<Dim>& motion, Particles<Dim>& particles, StepData<Dim>& step,
            Int128& filter_heat) {
-  using Lane = MotionLane<Dim>;
-  const double cell = grid.shape().cell;
+  constexpr bool affine = Velocity == VelocityTransfer::apic;
+  const GridShape& shape = grid.shape();
+  const double cell = shape.cell;
   const double inverse_cell = 1.0 / cell;
-  Int128 heat_sum = 0;
-  gather<Dim>(spline, particles, cells, grid,
-              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-                const Moments<Dim> m =
-                    moments<Spline, Velocity == VelocityTransfer::apic>(stencil, nodes);
-                const double lost =
-                    update_velocity<Dim, Velocity, Spline>(m, cell, motion.damped, p, particles);
-                for (int a = 0; a < Dim; ++a) {
-                  const double v = m.value[Lane::end_velocity + a];
-                  if constexpr (Update == VelocityUpdate::musl) {
-                    step.transport[a][p] = v;
-                  } else {
-                    particles.position[a][p] += motion.dt * (v - motion.grid_velocity[a]);
-                  }
-                }
-                store_gradients<Dim>(m, inverse_cell, p, step);
-                step.heat[p] = m.value[Lane::heat] + lost;
-                heat_sum += quantise(particles.mass[p] * lost, motion.inverse_quantum);
-              });
-  filter_heat += heat_sum;
+  std::array<Moments<Dim>, lane_count> pending;
+  std::array<Lanes, lane_count> averages{};  // 3-D only
+  Group group{};
+  const auto finish_group = [&] {
+    for (int n = group.count; n < lane_count; ++n) {
+      pending[n] = pending[group.count - 1];
+      averages[n] = averages[group.count - 1];
+      group.particles[n] = group.particles[group.count - 1];
+    }
+    auto m = group_moments<Dim, Spline, affine>(pending.data(), inverse_cell);
+    take_averages<Dim, Spline>(averages, m);
+    filter_heat +=
+        move_group<Dim, Velocity, Update, Spline>(m, cell, motion, group, particles, step);
+    group.count = 0;
+  };
+  gather_with<Dim, Spline>(
+      [&](std::uint32_t p, const std::array<int, Dim>& base) {
+        auto w = point_weights<Dim>(spline, particles, p, base, inverse_cell);
+        if constexpr (Dim == 3) {
+          if (motion.averages != nullptr) {
+            w.averages = motion.averages->row(base[2]) + base[1] * shape.nodes[0] + base[0];
+          }
+        }
+        return w;
+      },
+      particles, cells, grid,
+      [&](std::uint32_t p, const PointWeights<Dim>& w, const Lanes* nodes) {
+        group.particles[group.count] = p;
+        if constexpr (Dim == 3) {
+          if (w.averages != nullptr) averages[group.count] = averages_at<Spline>(w, shape);
+        }
+        pending[group.count] = scaled_moments<Dim, Spline, affine>(w, nodes);
+        if (++group.count == lane_count) finish_group();
+      });
+  if (group.count > 0) finish_group();
 }
 
 }  // namespace
@@ -203,10 +383,12 @@ void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid) {
 }
 
 template <int Dim>
-void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, const Transfer& transfer,
-                       const Vector<Dim>& grid_velocity, double dt, double inverse_quantum,
-                       Particles<Dim>& particles, StepData<Dim>& step, Int128& filter_heat) {
-  const Motion<Dim> motion = {damped_share(transfer, dt), grid_velocity, dt, inverse_quantum};
+void grid_to_particles(const SlabGrid& grid, const SlabGrid* averages, const CellOrder& cells,
+                       const Transfer& transfer, const Vector<Dim>& grid_velocity, double dt,
+                       double inverse_quantum, Particles<Dim>& particles, StepData<Dim>& step,
+                       Int128& filter_heat) {
+  const Motion<Dim> motion = {
+      damped_share(transfer, dt), grid_velocity, dt, inverse_quantum, averages, transfer.averaging};
   with_shape(transfer, [&]<class Spline>(const Spline& spline) {
     if constexpr (is_spline<Spline>) {
       if (transfer.velocity == VelocityTransfer::apic) {
@@ -230,11 +412,11 @@ void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, const Trans
 
 template void prepare_gather<2>(const Transfer&, double, SlabGrid&);
 template void prepare_gather<3>(const Transfer&, double, SlabGrid&);
-template void grid_to_particles<2>(const SlabGrid&, const CellOrder&, const Transfer&,
-                                   const Vector<2>&, double, double, Particles<2>&, StepData<2>&,
-                                   Int128&);
-template void grid_to_particles<3>(const SlabGrid&, const CellOrder&, const Transfer&,
-                                   const Vector<3>&, double, double, Particles<3>&, StepData<3>&,
-                                   Int128&);
+template void grid_to_particles<2>(const SlabGrid&, const SlabGrid*, const CellOrder&,
+                                   const Transfer&, const Vector<2>&, double, double, Particles<2>&,
+                                   StepData<2>&, Int128&);
+template void grid_to_particles<3>(const SlabGrid&, const SlabGrid*, const CellOrder&,
+                                   const Transfer&, const Vector<3>&, double, double, Particles<3>&,
+                                   StepData<3>&, Int128&);
 
 }  // namespace poreshock

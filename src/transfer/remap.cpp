@@ -46,7 +46,8 @@ void gather_remapped(const SlabGrid& grid, const CellOrder& cells, const Transfe
                     }
                     particles.position[a][p] += dt * (step.transport[a][p] - grid_velocity[a]);
                   }
-                  store_rate<Dim>(g, p, step);
+                  const auto rate = symmetric_part<Dim>(g);
+                  for (int k = 0; k < rate_size<Dim>; ++k) step.rate[k][p] = rate[k];
                 });
   });
 }

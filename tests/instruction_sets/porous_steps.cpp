@@ -199,9 +199,10 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& averages, Sample<Dim>& 
   apply_boundaries<Dim>(s.scene.boundary, s.settings.grid_velocity, grid, s.ledger);
   add_body_work<Dim>(body_force, dt, grid, s.ledger);
   prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
-  if (averaging) average_dilatation(s.particles, s.cells, transfer, grid, averages, s.step);
-  grid_to_particles(grid, s.cells, transfer, s.settings.grid_velocity, dt,
-                    s.settings.inverse_energy_quantum, s.particles, s.step, s.transfer_heat);
+  if (averaging) average_dilatation(s.particles, s.cells, transfer, grid, averages);
+  grid_to_particles(grid, averaging ? &averages : nullptr, s.cells, transfer,
+                    s.settings.grid_velocity, dt, s.settings.inverse_energy_quantum, s.particles,
+                    s.step, s.transfer_heat);
   update_stress(s.materials, s.settings, s.step, dt, s.particles, s.report);
   confine<Dim>(s);
 }

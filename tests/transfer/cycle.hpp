@@ -2,6 +2,7 @@
 // One way to the nodes and back, and what particles have in total.
 
 #include "poreshock/core/fixed_point.hpp"
+#include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
 #include "transfer/cloud.hpp"
@@ -23,8 +24,13 @@ NodeGain transfer_cycle(const Cloud<Dim>& cloud, double inverse_quantum, Kick&& 
     MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_SUM, communicator);
   }
   prepare_gather<Dim>(cloud.transfer, damped_share(cloud.transfer, time_step), *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, slab.cells, cloud.transfer, Vector<Dim>::Zero(), time_step,
-                         inverse_quantum, slab.particles, slab.step, slab.filter_heat);
+  const bool averaging = cloud.transfer.averaging > 0.0;
+  if (averaging) {
+    average_dilatation(slab.particles, slab.cells, cloud.transfer, *slab.grid, *slab.averages);
+  }
+  grid_to_particles<Dim>(*slab.grid, averaging ? slab.averages.get() : nullptr, slab.cells,
+                         cloud.transfer, Vector<Dim>::Zero(), time_step, inverse_quantum,
+                         slab.particles, slab.step, slab.filter_heat);
   return gain;
 }
 

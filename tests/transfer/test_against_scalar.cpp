@@ -131,7 +131,7 @@ void compare_gather(const Choice& choice, double damping) {
   Vector<Dim> grid_velocity = Vector<Dim>::Zero();
   grid_velocity[Dim - 1] = -300.0;
   prepare_gather<Dim>(cloud.transfer, damped, *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, slab.cells, cloud.transfer, grid_velocity, dt, 1.0,
+  grid_to_particles<Dim>(*slab.grid, nullptr, slab.cells, cloud.transfer, grid_velocity, dt, 1.0,
                          slab.particles, slab.step, slab.filter_heat);
   Comparison worst;
   for (std::size_t local = 0; local < slab.particles.size(); ++local) {

@@ -30,8 +30,6 @@ void sweep_all(const Cloud<Dim>& cloud, double inverse_quantum, MPI_Comm communi
                Slab<Dim>& slab) {
   average_pressure(slab.particles, slab.cells, cloud.transfer, *slab.averages, slab.step);
   transfer_cycle(cloud, inverse_quantum, random_kick<Dim>, communicator, slab);
-  average_dilatation(slab.particles, slab.cells, cloud.transfer, *slab.grid, *slab.averages,
-                     slab.step);
 }
 
 template <int Dim>

@@ -1,12 +1,78 @@
 #pragma once
-// Eight doubles that move together: one node of the background grid, one cache line. The width is
-// fixed, so every instruction set does the same arithmetic lane by lane.
+// Eight doubles that move together: one node of the background grid, one cache line, or one number
+// of eight nodes. The width is fixed, so every instruction set does the same arithmetic lane by
+// lane.
+
+#include <cmath>
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
 
 namespace poreshock {
 
 /// Eight doubles with element-wise + - * /; may lie at any address of a double.
 typedef double Lanes __attribute__((vector_size(64), aligned(8)));
+/// Four of them.
+typedef double HalfLanes __attribute__((vector_size(32), aligned(8)));
 
 inline constexpr int lane_count = 8;
+
+inline HalfLanes low_half(const Lanes& x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3);
+}
+
+inline HalfLanes high_half(const Lanes& x) {
+  return __builtin_shufflevector(x, x, 4, 5, 6, 7);
+}
+
+inline Lanes join(const HalfLanes& low, const HalfLanes& high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+/// a b + c rounded once, lane by lane. The result is the same without the instruction; the compiler
+/// does not find it by itself in every loop.
+inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
+#if defined(__AVX512F__)
+  return _mm512_fmadd_pd(a, b, c);
+#elif defined(__FMA__)
+  return join(_mm256_fmadd_pd(low_half(a), low_half(b), low_half(c)),
+              _mm256_fmadd_pd(high_half(a), high_half(b), high_half(c)));
+#else
+  Lanes result;
+  for (int k = 0; k < lane_count; ++k) result[k] = std::fma(a[k], b[k], c[k]);
+  return result;
+#endif
+}
+
+/// The same with one factor for all lanes.
+inline Lanes fused(double a, const Lanes& b, const Lanes& c) {
+  return fused(a - Lanes{}, b, c);
+}
+
+/// Sum of all lanes, in a tree that is the same everywhere.
+inline double sum_of_lanes(const Lanes& x) {
+  const HalfLanes four = low_half(x) + high_half(x);
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
+/// Turns eight vectors of one number each into eight vectors of one node each, and back.
+inline void transpose(Lanes* x) {
+  Lanes y[lane_count];
+  for (int k = 0; k < lane_count; k += 2) {
+    y[k] = __builtin_shufflevector(x[k], x[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    y[k + 1] = __builtin_shufflevector(x[k], x[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int k = 0; k < lane_count; k += 4) {
+    for (int j = k; j < k + 2; ++j) {
+      x[j] = __builtin_shufflevector(y[j], y[j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      x[j + 2] = __builtin_shufflevector(y[j], y[j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  }
+  for (int k = 0; k < lane_count / 2; ++k) {
+    const Lanes low = x[k], high = x[k + 4];
+    x[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 8, 9, 10, 11);
+    x[k + 4] = __builtin_shufflevector(low, high, 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
 
 }  // namespace poreshock

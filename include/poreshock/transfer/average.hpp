@@ -10,17 +10,17 @@
 
 namespace poreshock {
 
-/// Sets step.averaged_pressure = (1 - share) (p + q) + share A(p + q). `averages` keeps the nodal
-/// volumes for average_dilatation. Collective (one exchange of `averages`).
+/// Sets step.averaged_pressure = (1 - share) (p + q) + share A(p + q). Collective (one exchange of
+/// `averages`).
 template <int Dim>
 void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
                       const Transfer& transfer, SlabGrid& averages, StepData<Dim>& step);
 
-/// Sets step.dilatation_end and dilatation_mid, own and averaged mixed by the share, from the nodal
-/// motion in `grid` (periodic images filled). Collective (one exchange of `averages`).
+/// Averages div v' and div v_mid of the particles to the nodes, from the nodal motion in `grid`
+/// (periodic images filled), for grid_to_particles. In 2-D they end in lanes of `grid`, in 3-D in
+/// those of `averages`. Collective (one exchange of `averages`).
 template <int Dim>
 void average_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
-                        const Transfer& transfer, const SlabGrid& grid, SlabGrid& averages,
-                        StepData<Dim>& step);
+                        const Transfer& transfer, SlabGrid& grid, SlabGrid& averages);
 
 }  // namespace poreshock

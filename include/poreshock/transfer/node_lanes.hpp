@@ -20,14 +20,18 @@ struct MotionLane {
   static constexpr int heat = 2 * Dim;         ///< J/kg
   static constexpr int mass = 2 * Dim + 1;     ///< until prepare_gather
   static constexpr int kinetic = 2 * Dim + 1;  ///< J/kg, after prepare_gather
+  /// 1/s, averaged div v' and div v_mid, after average_dilatation. In 3-D no lane is left for them
+  /// and they stay on the grid of the averages.
+  static constexpr int dilatation_end = 2 * Dim + 2;
+  static constexpr int dilatation_mid = 2 * Dim + 3;
 };
 
-/// Nodal averages (averaged dilatation).
+/// Nodal averages (averaged dilatation), of the pressure or of the dilatation.
 struct AverageLane {
   static constexpr int volume = 0;
   static constexpr int pressure = 1;  ///< volume x (p + q), then the average
-  static constexpr int end = 2;       ///< volume x div v', then the average
-  static constexpr int mid = 3;       ///< volume x div v_mid, then the average
+  static constexpr int end = 1;       ///< volume x div v', then the average
+  static constexpr int mid = 2;       ///< volume x div v_mid, then the average
 };
 
 }  // namespace poreshock

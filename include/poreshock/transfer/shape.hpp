@@ -1,33 +1,85 @@
 #pragma once
 // Shape functions on a uniform grid, and the one definition of a particle's stencil cell. s is a
 // coordinate in cells from the domain's low side; node index i lies at s = i - 1. A shape function
-// is a struct with its width, the lowest node of a stencil (which also names the stencil cell) and
-// the weights of one axis.
+// is a struct with its width, the lowest node of a stencil (which also names the stencil cell), the
+// coordinate within the stencil cell and the weights of one axis. Weights come times `scale`, a
+// whole number, so that their sum is exact: unscaled() takes the power of it out again.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
 
+#include "poreshock/core/lanes.hpp"
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
 
-/// Weights of one axis: value, slope per cell, and offset from the particle in cells.
-template <int Width>
-struct AxisWeights {
-  std::array<double, Width> value, slope, offset;
+/// Weights of one axis, a node a lane: `scale` times value and slope per cell, and offset from the
+/// particle in cells. Lanes that stand for no node of the stencil have value and slope 0.
+struct AxisLanes {
+  Lanes value, slope, offset;
 };
+
+/// The node of an axis (0 ... 3 above the base) that each lane stands for: along a line of nodes,
+/// or across pairs of such lines.
+struct AlongLine {
+  static constexpr int node(int lane) { return lane % 4; }
+};
+template <int First>
+struct AcrossLines {
+  static constexpr int node(int lane) { return First + lane / 4; }
+};
+
+/// get(node) in every lane.
+template <class Pattern, class Get>
+constexpr Lanes by_node(Get&& get) {
+  return Lanes{get(Pattern::node(0)), get(Pattern::node(1)), get(Pattern::node(2)),
+               get(Pattern::node(3)), get(Pattern::node(4)), get(Pattern::node(5)),
+               get(Pattern::node(6)), get(Pattern::node(7))};
+}
+
+/// A weight as a polynomial: constant + u^2 (square + cube u) with u = origin + sign f.
+struct WeightPolynomial {
+  double origin, sign, constant, square, cube;
+};
+
+/// Weights of a B-spline at f: its lanes may hold the coordinates of different axes.
+template <class Spline, class Pattern>
+inline AxisLanes spline_lanes(const Lanes& f) {
+  constexpr auto& node = Spline::polynomial;
+  constexpr Lanes origin = by_node<Pattern>([](int n) { return node[n].origin; });
+  constexpr Lanes sign = by_node<Pattern>([](int n) { return node[n].sign; });
+  constexpr Lanes constant = by_node<Pattern>([](int n) { return node[n].constant; });
+  constexpr Lanes square = by_node<Pattern>([](int n) { return node[n].square; });
+  constexpr Lanes cube = by_node<Pattern>([](int n) { return node[n].cube; });
+  constexpr Lanes place = by_node<Pattern>([](int n) { return n - Spline::lowest; });
+  const Lanes u = fused(sign, f, origin);
+  return {fused(u * u, fused(cube, u, square), constant),
+          u * fused((3.0 * sign) * cube, u, (2.0 * sign) * square), place - f};
+}
+
+/// Weights of a hat in the lanes of a pattern.
+template <class Pattern, int Width>
+inline AxisLanes hat_lanes(const std::array<double, Width>& value,
+                           const std::array<double, Width>& slope, double f) {
+  const auto of = [](const auto& numbers) {
+    return by_node<Pattern>([&](int n) { return n < Width ? numbers[n] : 0.0; });
+  };
+  return {of(value), of(slope), by_node<Pattern>([&](int n) { return n - f; })};
+}
 
 /// Hat function: 2 nodes.
 struct LinearHat {
   static constexpr int width = 2;
+  static constexpr double scale = 1.0;
 
   static int base(double s) { return static_cast<int>(std::floor(s)) + 1; }
+  static double local(double s, int base) { return s - static_cast<double>(base - 1); }  // 0 ... 1
 
-  AxisWeights<2> weights(double s, int base) const {
-    const double f = s - static_cast<double>(base - 1);  // 0 ... 1
-    return {{1.0 - f, f}, {-1.0, 1.0}, {-f, 1.0 - f}};
+  template <class Pattern>
+  AxisLanes lanes(double f) const {
+    return hat_lanes<Pattern, 2>({1.0 - f, f}, {-1.0, 1.0}, f);
   }
 };
 
@@ -35,13 +87,16 @@ struct LinearHat {
 /// 5 (2004) 477), 3 nodes.
 struct UniformGimp {
   static constexpr int width = 3;
+  static constexpr double scale = 1.0;
   double half_length = 0.25;  ///< cells, at most 1/2
 
   static int base(double s) { return static_cast<int>(std::floor(s - 0.5)) + 1; }
+  static double local(double s, int base) { return s - static_cast<double>(base - 1); }
 
-  AxisWeights<3> weights(double s, int base) const {
+  template <class Pattern>
+  AxisLanes lanes(double f) const {
     const double l = half_length;
-    const double b = s - static_cast<double>(base);  // from the middle node, -0.5 ... 0.5
+    const double b = f - 1.0;  // from the middle node, -0.5 ... 0.5
     const double distance = b < 0.0 ? -b : b;
     const double sign = b < 0.0 ? -1.0 : 1.0;
     const bool over = distance < l;  // the particle covers the middle node
@@ -52,51 +107,47 @@ struct UniformGimp {
     const double left = outer(-b), right = outer(b);
     const bool in_left = -b >= l, in_right = b >= l;
     const double quarter = 1.0 / (4.0 * l), half = 1.0 / (2.0 * l);
-    return {
+    return hat_lanes<Pattern, 3>(
         {in_left ? -b : quarter * (left * left), middle, in_right ? b : quarter * (right * right)},
-        {in_left ? -1.0 : -half * left, slope, in_right ? 1.0 : half * right},
-        {-1.0 - b, -b, 1.0 - b}};
+        {in_left ? -1.0 : -half * left, slope, in_right ? 1.0 : half * right}, f);
   }
 };
 
 /// Quadratic B-spline: 3 nodes, sum of N (x_i - x)^2 = cell^2 / 4.
 struct QuadraticSpline {
   static constexpr int width = 3;
+  static constexpr double scale = 2.0;
   static constexpr double inverse_inertia = 4.0;
+  static constexpr std::array<WeightPolynomial, 4> polynomial = {
+      {{1.5, -1.0, 0.0, 1.0, 0.0}, {-1.0, 1.0, 1.5, -2.0, 0.0}, {-0.5, 1.0, 0.0, 1.0, 0.0}, {}}};
 
   static int base(double s) { return static_cast<int>(std::floor(s - 0.5)) + 1; }
+  static double local(double s, int base) { return s - static_cast<double>(base - 1); }  // .5...1.5
+  static constexpr double lowest = 0.0;  ///< place of the base node, where f is 0
 
-  AxisWeights<3> weights(double s, int base) const {
-    const double f = s - static_cast<double>(base - 1);  // 0.5 ... 1.5
-    const double a = 1.5 - f, b = f - 1.0, c = f - 0.5;
-    return {
-        {0.5 * (a * a), 0.75 - b * b, 0.5 * (c * c)}, {-a, -2.0 * b, c}, {-f, 1.0 - f, 2.0 - f}};
+  template <class Pattern>
+  AxisLanes lanes(double f) const {
+    return spline_lanes<QuadraticSpline, Pattern>(f - Lanes{});
   }
 };
 
 /// Cubic B-spline: 4 nodes, sum of N (x_i - x)^2 = cell^2 / 3.
 struct CubicSpline {
   static constexpr int width = 4;
+  static constexpr double scale = 6.0;
   static constexpr double inverse_inertia = 3.0;
+  static constexpr std::array<WeightPolynomial, 4> polynomial = {{{1.0, -1.0, 0.0, 0.0, 1.0},
+                                                                  {0.0, 1.0, 4.0, -6.0, 3.0},
+                                                                  {1.0, -1.0, 4.0, -6.0, 3.0},
+                                                                  {0.0, 1.0, 0.0, 0.0, 1.0}}};
 
   static int base(double s) { return static_cast<int>(std::floor(s)); }
+  static double local(double s, int base) { return s - static_cast<double>(base); }  // 0 ... 1
+  static constexpr double lowest = 1.0;  ///< the base node lies one cell below f = 0
 
-  /// x / 6 without a division. The double nearest 1/6 is too small by 2^-54 of itself; with it
-  /// alone the weights would sum to less than 1 on the average, and momentum would fade step by
-  /// step.
-  static double sixth_of(double x) {
-    constexpr double sixth = 1.0 / 6.0, missing = sixth * 0x1p-54;
-    return std::fma(x, sixth, x * missing);
-  }
-
-  AxisWeights<4> weights(double s, int base) const {
-    const double f = s - static_cast<double>(base);  // 0 ... 1
-    const double g = 1.0 - f;
-    const double f2 = f * f, g2 = g * g;
-    return {{sixth_of(g2 * g), sixth_of(4.0 + f2 * (3.0 * f - 6.0)),
-             sixth_of(4.0 + g2 * (3.0 * g - 6.0)), sixth_of(f2 * f)},
-            {-0.5 * g2, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f2},
-            {-1.0 - f, -f, g, 1.0 + g}};
+  template <class Pattern>
+  AxisLanes lanes(double f) const {
+    return spline_lanes<CubicSpline, Pattern>(f - Lanes{});
   }
 };
 
@@ -105,9 +156,73 @@ template <class Shape>
 inline constexpr bool is_spline =
     std::is_same_v<Shape, QuadraticSpline> || std::is_same_v<Shape, CubicSpline>;
 
+/// scale^axes of a shape function.
+template <int Axes, class Spline>
+inline constexpr double total_scale = Axes == 1
+                                          ? Spline::scale
+                                          : (Axes == 2
+                                                 ? Spline::scale * Spline::scale
+                                                 : Spline::scale * Spline::scale * Spline::scale);
+
+/// 1/scale^axes as a double and what that double misses.
+template <int Axes, class Spline>
+struct InverseScale {
+  static constexpr double nearest = 1.0 / total_scale<Axes, Spline>;
+  static constexpr double missing =
+      static_cast<double>((1.0L - static_cast<long double>(nearest) * total_scale<Axes, Spline>) /
+                          total_scale<Axes, Spline>);
+};
+
+/// x / scale^axes without a division. The double nearest the inverse alone would be off by the same
+/// share every time, and momentum would fade step by step.
+template <int Axes, class Spline>
+inline double unscaled(double x) {
+  using Inverse = InverseScale<Axes, Spline>;
+  return std::fma(x, Inverse::nearest, x * Inverse::missing);
+}
+template <int Axes, class Spline>
+inline Lanes unscaled(const Lanes& x) {
+  using Inverse = InverseScale<Axes, Spline>;
+  return fused(Inverse::nearest, x, x * Inverse::missing);
+}
+
+/// Weights of one axis, unscaled: value, slope per cell, and offset from the particle in cells.
+template <int Width>
+struct AxisWeights {
+  std::array<double, Width> value, slope, offset;
+};
+
+/// Weights of the stencil with this base at s.
+template <class Spline>
+inline AxisWeights<Spline::width> axis_weights(const Spline& spline, double s, int base) {
+  const AxisLanes lanes = spline.template lanes<AlongLine>(Spline::local(s, base));
+  AxisWeights<Spline::width> w;
+  for (int n = 0; n < Spline::width; ++n) {
+    w.value[n] = unscaled<1, Spline>(lanes.value[n]);
+    w.slope[n] = unscaled<1, Spline>(lanes.slope[n]);
+    w.offset[n] = lanes.offset[n];
+  }
+  return w;
+}
+
+/// Weights of two axes along their lines: the first in the low half, the second in the high one.
+template <class Spline>
+inline AxisLanes weights_of_two(const Spline& spline, double f, double g) {
+  const AxisLanes a = spline.template lanes<AlongLine>(f), b = spline.template lanes<AlongLine>(g);
+  return {join(low_half(a.value), high_half(b.value)), join(low_half(a.slope), high_half(b.slope)),
+          join(low_half(a.offset), high_half(b.offset))};
+}
+
 /// True where particle velocities are replaced by the grid's, so that nodes lose kinetic energy.
 inline bool projects(VelocityTransfer velocity) {
   return velocity == VelocityTransfer::apic || velocity == VelocityTransfer::pic;
+}
+
+/// Splines take both axes at once.
+template <class Spline>
+requires is_spline<Spline>
+inline AxisLanes weights_of_two(const Spline&, double f, double g) {
+  return spline_lanes<Spline, AlongLine>(join(f - HalfLanes{}, g - HalfLanes{}));
 }
 
 /// Calls run(shape function) with the one the scene asks for: the run-time choice becomes a type.

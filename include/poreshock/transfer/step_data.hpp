@@ -32,16 +32,18 @@ struct StepData {
   }
 };
 
-/// Sets step.rate of particle p to the symmetric part of a velocity gradient g[axis][direction].
-template <int Dim>
-inline void store_rate(const std::array<std::array<double, Dim>, Dim>& g, std::size_t p,
-                       StepData<Dim>& step) {
-  for (int a = 0; a < Dim; ++a) step.rate[a][p] = g[a][a];
-  step.rate[Dim][p] = 0.5 * (g[0][1] + g[1][0]);
+/// Symmetric part of a velocity gradient g[axis][direction], in the order of StepData::rate.
+template <int Dim, class Number>
+inline std::array<Number, rate_size<Dim>> symmetric_part(
+    const std::array<std::array<Number, Dim>, Dim>& g) {
+  std::array<Number, rate_size<Dim>> rate;
+  for (int a = 0; a < Dim; ++a) rate[a] = g[a][a];
+  rate[Dim] = 0.5 * (g[0][1] + g[1][0]);
   if constexpr (Dim == 3) {
-    step.rate[4][p] = 0.5 * (g[1][2] + g[2][1]);
-    step.rate[5][p] = 0.5 * (g[2][0] + g[0][2]);
+    rate[4] = 0.5 * (g[1][2] + g[2][1]);
+    rate[5] = 0.5 * (g[2][0] + g[0][2]);
   }
+  return rate;
 }
 
 }  // namespace poreshock

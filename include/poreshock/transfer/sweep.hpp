@@ -61,7 +61,7 @@ inline Stencil<Dim, Spline> stencil_at(const Spline& spline, const Particles<Dim
                                        double inverse_cell) {
   Stencil<Dim, Spline> result;
   for (int a = 0; a < Dim; ++a) {
-    result.axis[a] = spline.weights(particles.position[a][p] * inverse_cell, base[a]);
+    result.axis[a] = axis_weights(spline, particles.position[a][p] * inverse_cell, base[a]);
   }
   return result;
 }
@@ -102,6 +102,21 @@ void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const
   }
 }
 
+/// Calls visit(p, weights(p)) for the particles of a run. The weights of several are made first, so
+/// that they do not wait for each other.
+template <class Weights, class Visit>
+inline void for_each_weighted(const std::uint32_t* first, const std::uint32_t* last,
+                              Weights&& weights, Visit&& visit) {
+  constexpr std::ptrdiff_t batch = 8;
+  decltype(weights(*first)) prepared[batch];
+  while (first != last) {
+    const std::ptrdiff_t count = std::min(batch, last - first);
+    for (std::ptrdiff_t n = 0; n < count; ++n) prepared[n] = weights(first[n]);
+    for (std::ptrdiff_t n = 0; n < count; ++n) visit(first[n], prepared[n]);
+    first += count;
+  }
+}
+
 /// Scatters to nodes: accumulate(p, stencil, sums) adds one particle to the sums of its stencil
 /// nodes; sums of a run start at +0 and are added to the row buffer, that to the grid. Not
 /// collective.
@@ -133,13 +148,12 @@ void scatter(const Spline& spline, const Particles<Dim>& particles, const CellOr
       });
 }
 
-/// Gathers from nodes: visit(p, stencil, nodes) sees the stencil nodes of each particle.
-/// Nodes must be complete, periodic images filled. Not collective.
-template <int Dim, class Spline, class Visit>
-void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-            const SlabGrid& grid, Visit&& visit) {
+/// Gathers from nodes: visit(p, weights(p, base), nodes) sees the stencil nodes of each particle,
+/// base being the lowest. Nodes must be complete, periodic images filled. Not collective.
+template <int Dim, class Spline, class Weights, class Visit>
+void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellOrder& cells,
+                 const SlabGrid& grid, Visit&& visit) {
   const GridShape& shape = grid.shape();
-  const double inverse_cell = 1.0 / shape.cell;
   for_each_run(
       particles, cells, grid,
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
@@ -149,18 +163,30 @@ void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrd
         for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
           nodes[n] = source[node_offset<Dim, Spline>(shape, n)];
         }
-        for (; first != last; ++first) {
-          visit(*first, stencil_at<Dim>(spline, particles, *first, base, inverse_cell), nodes);
-        }
+        for_each_weighted(
+            first, last, [&](std::uint32_t p) { return weights(p, base); },
+            [&](std::uint32_t p, const auto& w) { visit(p, w, nodes); });
       },
       [](int) {});
+}
+
+/// Gathers from nodes with the stencil of each particle: visit(p, stencil, nodes).
+template <int Dim, class Spline, class Visit>
+void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+            const SlabGrid& grid, Visit&& visit) {
+  const double inverse_cell = 1.0 / grid.shape().cell;
+  gather_with<Dim, Spline>(
+      [&](std::uint32_t p, const std::array<int, Dim>& base) {
+        return stencil_at<Dim>(spline, particles, p, base, inverse_cell);
+      },
+      particles, cells, grid, visit);
 }
 
 /// Adds weight times `value` to every node of a stencil.
 template <int Dim, class Spline>
 inline void add_weighted(const Stencil<Dim, Spline>& stencil, const Lanes& value, Lanes* sums) {
   for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-    sums[n] += node_weight<Dim, Spline>(stencil, n) * value;
+    sums[n] = fused(node_weight<Dim, Spline>(stencil, n), value, sums[n]);
   }
 }
 
@@ -169,7 +195,7 @@ template <int Dim, class Spline>
 inline Lanes interpolate(const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
   Lanes value{};
   for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-    value += node_weight<Dim, Spline>(stencil, n) * nodes[n];
+    value = fused(node_weight<Dim, Spline>(stencil, n), nodes[n], value);
   }
   return value;
 }
