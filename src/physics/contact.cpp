@@ -166,7 +166,7 @@ FaceTable::FaceTable(const Transfer& transfer) {
       const double s = 10.0 + x;  // of the particle; node 11 lies at s = 10
       const int base = Shape::base(s);
       const int k = 11 - base;
-      return k >= 0 && k < Shape::width ? shape.weights(s, base).value[k] : 0.0;
+      return k >= 0 && k < Shape::width ? axis_weights(shape, s, base).value[k] : 0.0;
     };
     const double h = 2.0 * half / steps;
     for (int i = 0; i <= steps; ++i) {

@@ -189,7 +189,8 @@ template <typename Visitor>
 void visit_body(Visitor& visitor, Body& body, const Scene& scene) {
   visit_region(visitor, body.region, scene.dimension);
   visit_material_name(visitor, body.material, scene);
-  integer(visitor, "grain", body.grain, {not_negative, "", "number of the grain it belongs to"});
+  integer(visitor, "grain", body.grain,
+          {{.low = 0.0, .high = 1e6}, "", "number of the grain it belongs to"});
   visitor.vector("velocity", body.velocity, scene.dimension,
                  {any_number, "m/s", "added to the loading velocity"});
   const NumberRule spin{any_number, "rad/s", "about the centroid"};

@@ -1,6 +1,7 @@
 #include "poreshock/solver/ownership.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "poreshock/core/parallel.hpp"
@@ -119,6 +120,8 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
   if (sim.grid) {
     const double now = heaviest(weights, sim.grid->starts());
     if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;
+    release_fields(sim.grain_fields);
+    sim.grain_fields.moved = std::numeric_limits<double>::infinity();
     sim.grid.reset();
     sim.averages.reset();
     sim.heat.reset();

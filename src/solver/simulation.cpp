@@ -97,6 +97,32 @@ void update_from_particles(double dt, Simulation<Dim>& sim) {
                   sim.step_data);
 }
 
+/// Momentum, contact and boundaries on the nodes of all velocity fields.
+template <int Dim>
+void update_grids(double dt, Simulation<Dim>& sim) {
+  NodeLedger& ledger = sim.ledger.nodes;
+  const Transfer& transfer = sim.scene.transfer;
+  {
+    const Phase phase(sim.phases, PhaseName::grid_update);
+    for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+      integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, grid, ledger);
+    });
+  }
+  {
+    const Phase phase(sim.phases, PhaseName::contact);
+    collide(dt, sim);
+  }
+  const Phase phase(sim.phases, PhaseName::grid_update);
+  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+    apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, grid, ledger);
+    if (sim.body_force.squaredNorm() > 0.0) add_body_work<Dim>(sim.body_force, dt, grid, ledger);
+  });
+  finish_contact(dt, sim);
+  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+    prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
+  });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -107,6 +133,7 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   SampleReport report;
   fill<Dim>(scene, {layers * me / ranks, layers * (me + 1) / ranks}, sim.particles, report);
   sim.sample = total(report, communicator);
+  find_grains(sim);
   rebalance(0.0, sim);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
@@ -138,6 +165,7 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.ledger.row_time = std::bit_cast<double>(state.integers.at(4));
   restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
+  find_grains(sim);
   rebalance(0.0, sim);
   return sim;
 }
@@ -168,11 +196,14 @@ void advance(Simulation<Dim>& sim, double dt) {
   const Transfer& transfer = sim.scene.transfer;
   const bool averaging = transfer.averaging > 0.0;
   sort_particles(sim);
+  split_by_colour(sim);
   sim.step_data.resize(sim.particles.size(), averaging);
   if (transfer.velocity == VelocityTransfer::fmpm) {
     const Phase phase(sim.phases, PhaseName::filter);
-    filter_velocity(sim.cells, transfer, sim.ledger.nodes.inverse_energy_quantum, *sim.grid,
-                    sim.particles, sim.step_data, sim.ledger.transfer_heat);
+    for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid*) {
+      filter_velocity(cells, transfer, sim.ledger.nodes.inverse_energy_quantum, grid, sim.particles,
+                      sim.step_data, sim.ledger.transfer_heat);
+    });
   }
   if (sim.heat) {
     // At the start of the step density, energy and position belong together and the sort holds; the
@@ -182,39 +213,29 @@ void advance(Simulation<Dim>& sim, double dt) {
                  sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
                  sim.ledger.conduction);
   }
-  if (averaging) {
-    const Phase phase(sim.phases, PhaseName::average);
-    average_pressure(sim.particles, sim.cells, transfer, *sim.averages, sim.step_data);
-  }
-  {
-    const Phase phase(sim.phases, PhaseName::particles_to_grid);
-    particles_to_grid(sim.particles, sim.cells, transfer, sim.step_data, *sim.grid);
-  }
-  {
-    const Phase phase(sim.phases, PhaseName::exchange);
-    sim.grid->exchange();
-  }
-  {
-    const Phase phase(sim.phases, PhaseName::grid_update);
-    NodeLedger& ledger = sim.ledger.nodes;
-    integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, *sim.grid, ledger);
-    apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, *sim.grid, ledger);
-    if (sim.body_force.squaredNorm() > 0.0) {
-      add_body_work<Dim>(sim.body_force, dt, *sim.grid, ledger);
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    if (averaging) {
+      const Phase phase(sim.phases, PhaseName::average);
+      average_pressure(sim.particles, cells, transfer, *averages, sim.step_data);
     }
-    prepare_gather<Dim>(transfer, damped_share(transfer, dt), *sim.grid);
-  }
-  if (averaging) {
-    const Phase phase(sim.phases, PhaseName::average);
-    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages);
-  }
-  {
+    {
+      const Phase phase(sim.phases, PhaseName::particles_to_grid);
+      particles_to_grid(sim.particles, cells, transfer, sim.step_data, grid);
+    }
+    const Phase phase(sim.phases, PhaseName::exchange);
+    grid.exchange();
+  });
+  update_grids(dt, sim);
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    if (averaging) {
+      const Phase phase(sim.phases, PhaseName::average);
+      average_dilatation(sim.particles, cells, transfer, grid, *averages);
+    }
     const Phase phase(sim.phases, PhaseName::grid_to_particles);
-    grid_to_particles(*sim.grid, sim.averages.get(), sim.cells, transfer,
-                      sim.stress_settings.grid_velocity, dt,
+    grid_to_particles(grid, averages, cells, transfer, sim.stress_settings.grid_velocity, dt,
                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
                       sim.ledger.transfer_heat);
-  }
+  });
   if (transfer.update == VelocityUpdate::musl) {
     const Phase phase(sim.phases, PhaseName::remap);
     update_from_particles(dt, sim);

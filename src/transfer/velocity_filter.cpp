@@ -95,8 +95,11 @@ template <int Dim>
 void filter_velocity(const CellOrder& cells, const Transfer& transfer, double inverse_quantum,
                      SlabGrid& grid, Particles<Dim>& particles, StepData<Dim>& step,
                      Int128& filter_heat) {
-  for (int a = 0; a < Dim; ++a) step.residual[a] = particles.velocity[a];
-  std::fill(step.heat.begin(), step.heat.end(), 0.0);
+  for (int a = 0; a < Dim; ++a) {
+    step.residual[a].resize(particles.size());
+    for (const std::uint32_t p : cells.order) step.residual[a][p] = particles.velocity[a][p];
+  }
+  for (const std::uint32_t p : cells.order) step.heat[p] = 0.0;
   with_shape(transfer, [&](const auto& spline) {
     for (int applied = 0; applied < transfer.order; ++applied) {
       scatter_residual<Dim>(spline, particles, cells, step, grid);
@@ -105,7 +108,7 @@ void filter_velocity(const CellOrder& cells, const Transfer& transfer, double in
       subtract_average<Dim>(spline, particles, cells, transfer.order, applied, grid, step);
     }
   });
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+  for (const std::uint32_t p : cells.order) {
     for (int a = 0; a < Dim; ++a) particles.velocity[a][p] -= step.residual[a][p];
     particles.internal_energy[p] += step.heat[p];
     filter_heat += quantise(particles.mass[p] * step.heat[p], inverse_quantum);

@@ -239,7 +239,7 @@ NodeGrain<2> slab(double low, double high, double side) {
     const double s = 10.0 + low + 0.25 + 0.5 * k;
     const int index = 11 - CubicSpline::base(s);
     if (index < 0 || index > 3) continue;
-    const auto w = spline.weights(s, CubicSpline::base(s));
+    const auto w = axis_weights(spline, s, CubicSpline::base(s));
     g.volume += 0.5 * w.value[index] * side * cell * cell;
     // The slope is that of the node's weight against the particle's place.
     g.gradient[1] += 0.5 * w.slope[index] * side * cell;

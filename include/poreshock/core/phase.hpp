@@ -17,6 +17,7 @@ enum class PhaseName {
   exchange,
   average,
   grid_update,
+  contact,
   grid_to_particles,
   remap,
   conduction,

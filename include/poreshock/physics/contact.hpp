@@ -7,12 +7,13 @@
 #include <span>
 
 #include "poreshock/core/tensor.hpp"
+#include "poreshock/grid/grain_colours.hpp"
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
 
 /// Most grains that may share a node.
-inline constexpr int most_grains_at_node = 8;
+inline constexpr int most_grains_at_node = most_colours;
 
 /// One grain at a node. The order of several is that of their numbers.
 template <int Dim>

@@ -1,0 +1,236 @@
+#include "poreshock/solver/grain_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/solver/simulation.hpp"
+#include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/surfaces.hpp"
+#include "poreshock/transfer/sweep.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// Cells that particles may move before the grains are coloured anew.
+constexpr double margin = 0.5;
+
+double largest_of(double value, MPI_Comm communicator) {
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, communicator),
+            "MPI_Allreduce of the movement of grains");
+  return value;
+}
+
+template <int Dim>
+std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
+  std::vector<GrainCell> cells;
+  for_each_run(
+      sim.particles, sim.cells, *sim.grid,
+      [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t*) {
+        cells.push_back({row, lateral, sim.particles.grain[*first]});
+      },
+      [](int) {});
+  return cells;
+}
+
+/// Fields for so many colours: the first takes the grids of the run.
+template <int Dim>
+void make_fields(int colours, Simulation<Dim>& sim) {
+  GrainFields& all = sim.grain_fields;
+  if (colours == static_cast<int>(std::max(all.fields.size(), std::size_t{1}))) return;
+  release_fields(all);
+  if (colours == 1) return;
+  const bool averaging = sim.averages != nullptr;
+  const auto new_grid = [&] {
+    all.grids.push_back(
+        std::make_unique<SlabGrid>(sim.grid->shape(), sim.grid->starts(), sim.communicator));
+    return all.grids.back().get();
+  };
+  for (int c = 0; c < colours; ++c) {
+    VelocityField& field = all.fields.emplace_back();
+    field.grid = c == 0 ? sim.grid.get() : new_grid();
+    if (averaging) field.averages = c == 0 ? sim.averages.get() : new_grid();
+    field.surfaces = averaging ? field.averages : new_grid();
+  }
+}
+
+template <int Dim>
+void colour_anew(Simulation<Dim>& sim) {
+  GrainFields& all = sim.grain_fields;
+  // Two grains share a node when their cells are less than a stencil apart; meanwhile both may move
+  // by the margin, which can take each of them across one more cell.
+  const int reach = sim.grid->shape().stencil - 1 + 2 * static_cast<int>(std::ceil(margin));
+  const std::vector<GrainCell> cells = grain_cells(sim);
+  all.colours = colour_grains(all.grains, near_grains(cells, reach, *sim.grid));
+  all.moved = 0.0;
+  make_fields(1 + *std::max_element(all.colours.begin(), all.colours.end()), sim);
+}
+
+/// The particles of `all` that `chosen(index)` takes, in the same order.
+template <class Chosen>
+void choose_particles(const CellOrder& all, Chosen&& chosen, CellOrder& result) {
+  result.order.clear();
+  result.start.resize(all.start.size());
+  for (std::size_t c = 0; c + 1 < all.start.size(); ++c) {
+    result.start[c] = static_cast<std::uint32_t>(result.order.size());
+    for (std::uint32_t k = all.start[c]; k < all.start[c + 1]; ++k) {
+      if (chosen(c, all.order[k])) result.order.push_back(all.order[k]);
+    }
+  }
+  result.start.back() = static_cast<std::uint32_t>(result.order.size());
+}
+
+/// Node of a row that stands for node i across periodic sides.
+int original_node(const GridShape& shape, int i) {
+  const auto original = [](int k, int nodes, bool periodic) {
+    if (!periodic) return k;
+    if (k == 0) return nodes - 3;
+    return k >= nodes - 2 ? k - (nodes - 3) : k;
+  };
+  const int x = original(i % shape.nodes[0], shape.nodes[0], shape.periodic[0]);
+  if (shape.dimension == 2) return x;
+  return original(i / shape.nodes[0], shape.nodes[1], shape.periodic[1]) * shape.nodes[0] + x;
+}
+
+/// True for the stencil cells of this slab that reach a shared node.
+std::vector<bool> cells_at(const std::vector<bool>& shared, const SlabGrid& grid) {
+  const GridShape& shape = grid.shape();
+  const int width = shape.row_size, rows = grid.last_row() - grid.first_row(), w = shape.stencil;
+  std::vector<bool> cells(static_cast<std::size_t>(rows) * width, false);
+  const int planes = shape.dimension == 3 ? w : 1;
+  for (int row = 0; row < grid.node_end() - grid.first_row(); ++row) {
+    for (int i = 0; i < width; ++i) {
+      const std::size_t node = static_cast<std::size_t>(row) * width + original_node(shape, i);
+      if (!shared[node]) continue;
+      for (int k = 0; k < w; ++k) {
+        if (row - k < 0 || row - k >= rows) continue;
+        for (int j = 0; j < planes; ++j) {
+          for (int l = 0; l < w; ++l) {
+            const int lateral = i - j * shape.nodes[0] - l;
+            if (lateral < 0 || i % shape.nodes[0] < l) continue;
+            cells[static_cast<std::size_t>(row - k) * width + lateral] = true;
+          }
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+std::vector<ContactField> contact_fields(const GrainFields& all) {
+  std::vector<ContactField> fields;
+  for (const VelocityField& f : all.fields) fields.push_back({f.grid, f.surfaces});
+  return fields;
+}
+
+}  // namespace
+
+void release_fields(GrainFields& fields) {
+  fields.fields.clear();
+  fields.grids.clear();
+}
+
+template <int Dim>
+void find_grains(Simulation<Dim>& sim) {
+  std::int32_t limits[2] = {0, 0};  // of -number and number
+  if (sim.particles.size() > 0) {
+    const auto [least, most] =
+        std::minmax_element(sim.particles.grain.begin(), sim.particles.grain.end());
+    limits[0] = -*least, limits[1] = *most;
+  } else {
+    limits[0] = limits[1] = std::numeric_limits<std::int32_t>::min();
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, limits, 2, MPI_INT32_T, MPI_MAX, sim.communicator),
+            "MPI_Allreduce of grain numbers");
+  if (-limits[0] == limits[1]) return;
+  if (sim.scene.transfer.update == VelocityUpdate::musl) {
+    throw InputError(
+        "transfer.update: found \"musl\" in a scene of several grains. Allowed is \"usl\": contact "
+        "acts once in a step. Set transfer.update = \"usl\", or give all bodies the same grain.");
+  }
+  sim.grain_fields.grains = limits[1] + 1;
+  sim.grain_fields.faces.emplace(sim.scene.transfer);
+}
+
+template <int Dim>
+void split_by_colour(Simulation<Dim>& sim) {
+  GrainFields& all = sim.grain_fields;
+  if (all.grains == 0) return;
+  // Written so that a NaN colours anew.
+  if (!(all.moved <= margin)) colour_anew(sim);
+  for (std::size_t c = 0; c < all.fields.size(); ++c) {
+    choose_particles(
+        sim.cells,
+        [&](std::size_t, std::uint32_t p) {
+          return all.colours[static_cast<std::size_t>(sim.particles.grain[p])] ==
+                 static_cast<std::int8_t>(c);
+        },
+        all.fields[c].cells);
+  }
+}
+
+template <int Dim>
+void collide(double dt, Simulation<Dim>& sim) {
+  GrainFields& all = sim.grain_fields;
+  all.summary = {.nodes = 0,
+                 .crowded_nodes = 0,
+                 .least_gap = std::numeric_limits<double>::infinity(),
+                 .penetration = 0.0,
+                 .residual = 0.0};
+  if (all.fields.empty()) return;
+  const std::vector<ContactField> fields = contact_fields(all);
+  all.shared = shared_nodes(fields, MotionLane<Dim>::mass);
+  const std::vector<bool> near = cells_at(all.shared, *sim.grid);
+  CellOrder chosen;
+  for (const VelocityField& f : all.fields) {
+    choose_particles(
+        f.cells, [&](std::size_t c, std::uint32_t) { return near[c]; }, chosen);
+    scatter_surfaces(sim.particles, chosen, sim.scene.transfer, *f.surfaces);
+    f.surfaces->exchange();
+  }
+  const ContactSettings settings{.friction = sim.scene.contact.friction,
+                                 .gap_test = sim.scene.contact.gap == GapTest::volume,
+                                 .cell = sim.scene.domain.cell,
+                                 .dt = dt,
+                                 .capacity = 0.0};
+  all.summary =
+      collide_grains<Dim>(fields, all.shared, sim.scene, settings, *all.faces, sim.ledger.nodes);
+}
+
+template <int Dim>
+void finish_contact(double dt, Simulation<Dim>& sim) {
+  using Motion = MotionLane<Dim>;
+  GrainFields& all = sim.grain_fields;
+  if (all.grains == 0) return;
+  if (!all.fields.empty()) {
+    settle_contact_heat<Dim>(contact_fields(all), all.shared, sim.ledger.nodes);
+  }
+  const Vector<Dim>& frame = sim.stress_settings.grid_velocity;
+  double speed = 0.0;
+  for_each_field(sim, [&](const CellOrder&, const SlabGrid& grid, const SlabGrid*) {
+    for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+      const Lanes* nodes = grid.row(row);
+      for (int i = 0; i < grid.shape().row_size; ++i) {
+        if (!(nodes[i][Motion::mass] > 0.0)) continue;
+        for (int a = 0; a < Dim; ++a) {
+          speed = std::max({speed, std::abs(nodes[i][Motion::end_velocity + a] - frame[a]),
+                            std::abs(nodes[i][Motion::start_velocity + a] - frame[a])});
+        }
+      }
+    }
+  });
+  all.moved += largest_of(speed * dt / sim.scene.domain.cell, sim.communicator);
+}
+
+template void find_grains<2>(Simulation<2>&);
+template void find_grains<3>(Simulation<3>&);
+template void split_by_colour<2>(Simulation<2>&);
+template void split_by_colour<3>(Simulation<3>&);
+template void collide<2>(double, Simulation<2>&);
+template void collide<3>(double, Simulation<3>&);
+template void finish_contact<2>(double, Simulation<2>&);
+template void finish_contact<3>(double, Simulation<3>&);
+
+}  // namespace poreshock
