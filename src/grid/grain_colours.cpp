@@ -32,7 +32,7 @@ std::vector<Item> gather_all(const std::vector<Item>& mine, MPI_Comm communicato
 template <class Item>
 void keep_each_once(std::vector<Item>& items) {
   std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
+  items.resize(static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin()));
 }
 
 /// Cells of the rows within `reach` of a slab end that another rank lies beyond.
@@ -80,6 +80,15 @@ class CellMap {
   std::vector<std::size_t> start_;
 };
 
+using Neighbours = std::vector<std::vector<std::int32_t>>;
+
+/// Notes two neighbours, once, with the smaller one; a grain has few.
+void join(std::int32_t a, std::int32_t b, Neighbours& near) {
+  std::vector<std::int32_t>& list = near[static_cast<std::size_t>(std::min(a, b))];
+  const std::int32_t other = std::max(a, b);
+  if (std::find(list.begin(), list.end(), other) == list.end()) list.push_back(other);
+}
+
 /// Lateral indices within reach of one along an axis, each once.
 void near_indices(int index, int reach, int nodes, bool periodic, std::vector<int>& result) {
   result.clear();
@@ -107,8 +116,11 @@ std::vector<GrainPair> near_grains(std::span<const GrainCell> cells, int reach,
   });
   all.insert(all.end(), cells.begin(), cells.end());
   const CellMap map(std::move(all), shape);
-  std::vector<GrainPair> pairs;
-  std::vector<int> xs, ys{0};
+  std::int32_t most = -1;
+  for (const GrainCell& c : map.cells()) most = std::max(most, c.grain);
+  Neighbours near(static_cast<std::size_t>(most + 1));
+  std::vector<int> xs, ys;
+  ys.push_back(0);
   for (const GrainCell& c : map.cells()) {
     near_indices(c.lateral % shape.nodes[0], reach, shape.nodes[0], shape.periodic[0], xs);
     if (shape.dimension == 3) {
@@ -118,25 +130,22 @@ std::vector<GrainPair> near_grains(std::span<const GrainCell> cells, int reach,
       for (const int y : ys) {
         for (const int x : xs) {
           for (const GrainCell& other : map.at(row, y * shape.nodes[0] + x)) {
-            if (other.grain == c.grain) continue;
-            const GrainPair pair = std::minmax(c.grain, other.grain);
-            if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
+            if (other.grain != c.grain) join(c.grain, other.grain, near);
           }
         }
       }
     }
-    // Neighbouring cells find the same pairs again and again.
-    if (pairs.size() > 100000) keep_each_once(pairs);
   }
-  keep_each_once(pairs);
+  std::vector<GrainPair> pairs;
+  for (std::size_t g = 0; g < near.size(); ++g) {
+    for (const std::int32_t other : near[g]) pairs.emplace_back(static_cast<int>(g), other);
+  }
   pairs = gather_all(pairs, grid.communicator());
   keep_each_once(pairs);
   return pairs;
 }
 
 namespace {
-
-using Neighbours = std::vector<std::vector<std::int32_t>>;
 
 /// Grains in the order in which they lose their last neighbours: always one of the smallest degree
 /// among those left, the smallest number first.

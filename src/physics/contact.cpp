@@ -36,8 +36,11 @@ struct Pair {
 template <int Dim>
 bool set_normal(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double cell, Pair<Dim>& pair) {
   constexpr double flat = 1e-6;
-  const double floor = flat * (a.volume + b.volume) / cell;
-  Vector<Dim> n = a.gradient - b.gradient;
+  const double face = flat * (a.volume + b.volume) / cell;
+  const double floor = face * (face * face);
+  // The steeper gradient belongs to the flatter face: at a corner it tells where the face is.
+  Vector<Dim> n =
+      a.gradient * dot<Dim>(a.gradient, a.gradient) - b.gradient * dot<Dim>(b.gradient, b.gradient);
   double length = std::sqrt(dot<Dim>(n, n));
   pair.rubs = length > floor;
   if (!pair.rubs) {
@@ -207,10 +210,9 @@ double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
   const double density = faces.density(a.volume / both);
   const double missing_in_node = settings.capacity - filled;
   const double missing_in_pair = area * settings.cell - both * density;
-  const double least = std::min(missing_in_node * density, missing_in_pair);
-  const double missing = least - touching_share * both * density;
-  if (!(missing > 0.0)) return 0.0;
-  return area > 0.0 && density > 0.0 ? missing / (area * density)
+  const double missing = std::min(missing_in_node * density, missing_in_pair);
+  if (!(missing > touching_gap * settings.cell * area * density)) return 0.0;
+  return area > 0.0 && density > 0.0 ? missing / (area * density) - touching_gap * settings.cell
                                      : std::numeric_limits<double>::infinity();
 }
 

@@ -1,7 +1,7 @@
 #include "poreshock/solver/grain_fields.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -13,15 +13,6 @@
 namespace poreshock {
 
 namespace {
-
-/// Cells that particles may move before the grains are coloured anew.
-constexpr double margin = 0.5;
-
-double largest_of(double value, MPI_Comm communicator) {
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, communicator),
-            "MPI_Allreduce of the movement of grains");
-  return value;
-}
 
 template <int Dim>
 std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
@@ -35,18 +26,21 @@ std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
   return cells;
 }
 
-/// Fields for so many colours: the first takes the grids of the run.
+/// Fields for so many colours: the first takes the grids of the run. Grids once made stay for later
+/// steps.
 template <int Dim>
 void make_fields(int colours, Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
-  if (colours == static_cast<int>(std::max(all.fields.size(), std::size_t{1}))) return;
-  release_fields(all);
+  all.fields.clear();
   if (colours == 1) return;
   const bool averaging = sim.averages != nullptr;
+  std::size_t used = 0;
   const auto new_grid = [&] {
-    all.grids.push_back(
-        std::make_unique<SlabGrid>(sim.grid->shape(), sim.grid->starts(), sim.communicator));
-    return all.grids.back().get();
+    if (used == all.grids.size()) {
+      all.grids.push_back(
+          std::make_unique<SlabGrid>(sim.grid->shape(), sim.grid->starts(), sim.communicator));
+    }
+    return all.grids[used++].get();
   };
   for (int c = 0; c < colours; ++c) {
     VelocityField& field = all.fields.emplace_back();
@@ -56,30 +50,38 @@ void make_fields(int colours, Simulation<Dim>& sim) {
   }
 }
 
-template <int Dim>
-void colour_anew(Simulation<Dim>& sim) {
-  GrainFields& all = sim.grain_fields;
-  // Two grains share a node when their cells are less than a stencil apart; meanwhile both may move
-  // by the margin, which can take each of them across one more cell.
-  const int reach = sim.grid->shape().stencil - 1 + 2 * static_cast<int>(std::ceil(margin));
-  const std::vector<GrainCell> cells = grain_cells(sim);
-  all.colours = colour_grains(all.grains, near_grains(cells, reach, *sim.grid));
-  all.moved = 0.0;
-  make_fields(1 + *std::max_element(all.colours.begin(), all.colours.end()), sim);
-}
-
-/// The particles of `all` that `chosen(index)` takes, in the same order.
-template <class Chosen>
-void choose_particles(const CellOrder& all, Chosen&& chosen, CellOrder& result) {
+/// The particles of the chosen cells.
+void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrder& result) {
   result.order.clear();
   result.start.resize(all.start.size());
   for (std::size_t c = 0; c + 1 < all.start.size(); ++c) {
     result.start[c] = static_cast<std::uint32_t>(result.order.size());
-    for (std::uint32_t k = all.start[c]; k < all.start[c + 1]; ++k) {
-      if (chosen(c, all.order[k])) result.order.push_back(all.order[k]);
-    }
+    if (!chosen[c]) continue;
+    result.order.insert(result.order.end(), all.order.begin() + all.start[c],
+                        all.order.begin() + all.start[c + 1]);
   }
   result.start.back() = static_cast<std::uint32_t>(result.order.size());
+}
+
+/// Gives the particles of all cells to the fields of their colours, in the same order.
+void split(const CellOrder& cells, const std::vector<std::int32_t>& grain, GrainFields& all) {
+  for (VelocityField& field : all.fields) {
+    field.cells.order.clear();
+    field.cells.start.resize(cells.start.size());
+  }
+  for (std::size_t c = 0; c + 1 < cells.start.size(); ++c) {
+    for (VelocityField& field : all.fields) {
+      field.cells.start[c] = static_cast<std::uint32_t>(field.cells.order.size());
+    }
+    for (std::uint32_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
+      const std::uint32_t p = cells.order[k];
+      const auto colour = static_cast<std::size_t>(all.colours[static_cast<std::size_t>(grain[p])]);
+      all.fields[colour].cells.order.push_back(p);
+    }
+  }
+  for (VelocityField& field : all.fields) {
+    field.cells.start.back() = static_cast<std::uint32_t>(field.cells.order.size());
+  }
 }
 
 /// Node of a row that stands for node i across periodic sides.
@@ -158,17 +160,12 @@ template <int Dim>
 void split_by_colour(Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
   if (all.grains == 0) return;
-  // Written so that a NaN colours anew.
-  if (!(all.moved <= margin)) colour_anew(sim);
-  for (std::size_t c = 0; c < all.fields.size(); ++c) {
-    choose_particles(
-        sim.cells,
-        [&](std::size_t, std::uint32_t p) {
-          return all.colours[static_cast<std::size_t>(sim.particles.grain[p])] ==
-                 static_cast<std::int8_t>(c);
-        },
-        all.fields[c].cells);
-  }
+  // Two grains share a node when their cells are less than a stencil apart. What a grain adds to
+  // a node does not depend on its colour, so colours may change from step to step.
+  const int reach = sim.grid->shape().stencil - 1;
+  all.colours = colour_grains(all.grains, near_grains(grain_cells(sim), reach, *sim.grid));
+  make_fields(1 + *std::max_element(all.colours.begin(), all.colours.end()), sim);
+  if (!all.fields.empty()) split(sim.cells, sim.particles.grain, all);
 }
 
 template <int Dim>
@@ -185,8 +182,7 @@ void collide(double dt, Simulation<Dim>& sim) {
   const std::vector<bool> near = cells_at(all.shared, *sim.grid);
   CellOrder chosen;
   for (const VelocityField& f : all.fields) {
-    choose_particles(
-        f.cells, [&](std::size_t c, std::uint32_t) { return near[c]; }, chosen);
+    choose_cells(f.cells, near, chosen);
     scatter_surfaces(sim.particles, chosen, sim.scene.transfer, *f.surfaces);
     f.surfaces->exchange();
   }
@@ -200,28 +196,10 @@ void collide(double dt, Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void finish_contact(double dt, Simulation<Dim>& sim) {
-  using Motion = MotionLane<Dim>;
-  GrainFields& all = sim.grain_fields;
-  if (all.grains == 0) return;
-  if (!all.fields.empty()) {
-    settle_contact_heat<Dim>(contact_fields(all), all.shared, sim.ledger.nodes);
-  }
-  const Vector<Dim>& frame = sim.stress_settings.grid_velocity;
-  double speed = 0.0;
-  for_each_field(sim, [&](const CellOrder&, const SlabGrid& grid, const SlabGrid*) {
-    for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-      const Lanes* nodes = grid.row(row);
-      for (int i = 0; i < grid.shape().row_size; ++i) {
-        if (!(nodes[i][Motion::mass] > 0.0)) continue;
-        for (int a = 0; a < Dim; ++a) {
-          speed = std::max({speed, std::abs(nodes[i][Motion::end_velocity + a] - frame[a]),
-                            std::abs(nodes[i][Motion::start_velocity + a] - frame[a])});
-        }
-      }
-    }
-  });
-  all.moved += largest_of(speed * dt / sim.scene.domain.cell, sim.communicator);
+void finish_contact(Simulation<Dim>& sim) {
+  const GrainFields& all = sim.grain_fields;
+  if (all.fields.empty()) return;
+  settle_contact_heat<Dim>(contact_fields(all), all.shared, sim.ledger.nodes);
 }
 
 template void find_grains<2>(Simulation<2>&);
@@ -230,7 +208,7 @@ template void split_by_colour<2>(Simulation<2>&);
 template void split_by_colour<3>(Simulation<3>&);
 template void collide<2>(double, Simulation<2>&);
 template void collide<3>(double, Simulation<3>&);
-template void finish_contact<2>(double, Simulation<2>&);
-template void finish_contact<3>(double, Simulation<3>&);
+template void finish_contact<2>(Simulation<2>&);
+template void finish_contact<3>(Simulation<3>&);
 
 }  // namespace poreshock

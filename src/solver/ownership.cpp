@@ -1,7 +1,6 @@
 #include "poreshock/solver/ownership.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "poreshock/core/parallel.hpp"
@@ -121,7 +120,6 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
     const double now = heaviest(weights, sim.grid->starts());
     if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;
     release_fields(sim.grain_fields);
-    sim.grain_fields.moved = std::numeric_limits<double>::infinity();
     sim.grid.reset();
     sim.averages.reset();
     sim.heat.reset();

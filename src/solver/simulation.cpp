@@ -117,7 +117,7 @@ void update_grids(double dt, Simulation<Dim>& sim) {
     apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, grid, ledger);
     if (sim.body_force.squaredNorm() > 0.0) add_body_work<Dim>(sim.body_force, dt, grid, ledger);
   });
-  finish_contact(dt, sim);
+  finish_contact(sim);
   for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
     prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
   });

@@ -5,10 +5,25 @@
 
 namespace poreshock {
 
+namespace {
+
+/// SurfaceLane of one particle at one node. Built at once: writing single lanes would go through
+/// memory.
+template <int Dim>
+inline Lanes surface_lanes(double volume, const std::array<double, Dim>& slope,
+                           const std::array<double, Dim>& place) {
+  if constexpr (Dim == 2) {
+    return Lanes{volume, slope[0], slope[1], place[0], place[1], 0.0, 0.0, 0.0};
+  } else {
+    return Lanes{volume, slope[0], slope[1], slope[2], place[0], place[1], place[2], 0.0};
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void scatter_surfaces(const Particles<Dim>& particles, const CellOrder& cells,
                       const Transfer& transfer, SlabGrid& surfaces) {
-  using Lane = SurfaceLane<Dim>;
   const double cell = surfaces.shape().cell;
   with_shape(transfer, [&]<class Spline>(const Spline& spline) {
     constexpr int w = Spline::width;
@@ -16,15 +31,16 @@ void scatter_surfaces(const Particles<Dim>& particles, const CellOrder& cells,
         spline, particles, cells,
         [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
           const double volume = particles.mass[p] / particles.density[p];
+          const double per_cell = volume / cell;
           for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
             const double share = volume * node_weight<Dim, Spline>(stencil, n);
             const int index[3] = {n % w, Dim == 3 ? (n / w) % w : n / w, n / (w * w)};
-            Lanes surface{share};
+            std::array<double, Dim> slope, place;
             for (int a = 0; a < Dim; ++a) {
-              surface[Lane::gradient + a] = volume / cell * node_slope<Dim, Spline>(stencil, n, a);
-              surface[Lane::place + a] = -share * stencil.axis[a].offset[index[a]] * cell;
+              slope[a] = per_cell * node_slope<Dim, Spline>(stencil, n, a);
+              place[a] = -share * stencil.axis[a].offset[index[a]] * cell;
             }
-            sums[n] += surface;
+            sums[n] += surface_lanes<Dim>(share, slope, place);
           }
         },
         surfaces);

@@ -61,13 +61,12 @@ struct ContactReport {
   double loss = 0.0;           ///< J >= 0, kinetic energy the impulses took from the end velocities
 };
 
-/// Share of a node's volume that may be missing while its grains count as touching: 0.03 cells at a
-/// face on a node, cubic.
-inline constexpr double touching_share = 0.02;
+/// Gap in cells that counts as none: the volume of a node is known no better when grains deform.
+inline constexpr double touching_gap = 0.05;
 
 /// Gap between two grains at a node, m: from the volume that is missing, either in the node or
-/// between the two fields, whichever is less; 0 when they touch. A flat gap is met exactly at
-/// second order; between curved faces it is the mean over the shape function. Pure function.
+/// between the two fields, whichever is less, without touching_gap; 0 when they touch. Between
+/// curved faces it is the mean over the shape function. Pure function.
 template <int Dim>
 double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
                 const ContactSettings& settings, const FaceTable& faces);

@@ -1,7 +1,6 @@
 #pragma once
 // Velocity fields of grains: one for each colour, so that grains that meet can slide and part.
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,11 +21,10 @@ struct VelocityField {
 
 /// All fields of a run. Not part of its state: nodal sums of a grain do not depend on its colour.
 struct GrainFields {
-  std::int32_t grains = 0;           ///< largest number of a grain + 1; 0 where all are one grain
-  std::vector<std::int8_t> colours;  ///< per grain
-  double moved = std::numeric_limits<double>::infinity();  ///< cells, since the colours were made
-  std::vector<VelocityField> fields;                       ///< empty with a single colour
-  std::vector<std::unique_ptr<SlabGrid>> grids;            ///< those of the colours after the first
+  std::int32_t grains = 0;            ///< largest number of a grain + 1; 0 where all are one grain
+  std::vector<std::int8_t> colours;   ///< per grain
+  std::vector<VelocityField> fields;  ///< empty with a single colour
+  std::vector<std::unique_ptr<SlabGrid>> grids;  ///< those of the colours after the first
   std::optional<FaceTable> faces;
   std::vector<bool> shared;  ///< nodes where two grains met in this step
   ContactSummary summary;    ///< of the last step, this rank
@@ -40,9 +38,9 @@ struct Simulation;
 template <int Dim>
 void find_grains(Simulation<Dim>& sim);
 
-/// After the sort: colours the grains anew when they may have come near each other since, and
-/// splits the particles by colour. Throws StateError when a place needs too many colours.
-/// Collective.
+/// After the sort: colours the grains by their cells and splits the particles by colour. Throws
+/// StateError when a place needs too many colours. Nothing with a single grain. Collective (four
+/// gathers of what is small).
 template <int Dim>
 void split_by_colour(Simulation<Dim>& sim);
 
@@ -51,10 +49,9 @@ void split_by_colour(Simulation<Dim>& sim);
 template <int Dim>
 void collide(double dt, Simulation<Dim>& sim);
 
-/// After the boundaries: settles the heat of contact and finds how far particles may move in this
-/// step. Nothing with a single grain. Collective (one reduction).
+/// After the boundaries: settles the heat of contact. Nothing with a single colour. Not collective.
 template <int Dim>
-void finish_contact(double dt, Simulation<Dim>& sim);
+void finish_contact(Simulation<Dim>& sim);
 
 /// Gives the grids of all fields back, before the slabs change.
 void release_fields(GrainFields& fields);
