@@ -61,11 +61,12 @@ void add_impulse(const Vector<Dim>& impulse, const Pair<Dim>& pair,
 
 /// One Gauss-Seidel step: the impulse of this pair given those of all others.
 template <int Dim>
-void relax_pair(double friction, double dt, Pair<Dim>& pair, std::span<NodeGrain<Dim>> grains) {
+void relax_pair(double friction, double closing_time, Pair<Dim>& pair,
+                std::span<NodeGrain<Dim>> grains) {
   const double ma = grains[pair.a].mass, mb = grains[pair.b].mass;
   const double reduced = ma * (mb / (ma + mb));
   Vector<Dim> relative = grains[pair.b].end - grains[pair.a].end;
-  const double missing = -(dot<Dim>(relative, pair.normal) + pair.gap / dt);
+  const double missing = -(dot<Dim>(relative, pair.normal) + pair.gap / closing_time);
   const double push = std::max(pair.push + reduced * missing, 0.0);
   add_impulse<Dim>(pair.normal * (push - pair.push), pair, grains);
   pair.push = push;
@@ -230,7 +231,7 @@ ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSet
   for (int sweep = 0; sweep < (count == 1 ? 1 : sweeps); ++sweep) {
     for (int k = 0; k < count; ++k) {
       Pair<Dim>& pair = pairs[sweep % 2 == 0 ? k : count - 1 - k];
-      relax_pair<Dim>(settings.friction, settings.dt, pair, grains);
+      relax_pair<Dim>(settings.friction, settings.closing_time, pair, grains);
     }
   }
   if (count > 1) keep_energy_down<Dim>(start, pairs, grains);

@@ -14,6 +14,11 @@ namespace poreshock {
 
 namespace {
 
+/// Cells that a sound wave crosses while a gap closes. Less, and grains that meet fast overlap more
+/// (4 % of the volume of a bed at 1100 m/s with grains of 6 cells at 0, 2.4 % at 2, 1.4 % at 4);
+/// more, and two elastic discs lose more energy (3.1, 3.5 and 6.1 % at 40 cells per diameter).
+constexpr double closing_cells = 2.0;
+
 template <int Dim>
 std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
   std::vector<GrainCell> cells;
@@ -121,6 +126,15 @@ std::vector<bool> cells_at(const std::vector<bool>& shared, const SlabGrid& grid
   return cells;
 }
 
+/// Time in which gaps may close: a grain that is stopped at its face goes on behind it until a wave
+/// has crossed the nodes that see the face, and would sink into the other one meanwhile.
+template <int Dim>
+double closing_time(double dt, const Simulation<Dim>& sim) {
+  double speed = 0.0;
+  for (const Material& m : sim.materials) speed = std::max(speed, longitudinal_sound_speed(m));
+  return std::max(dt, closing_cells * sim.scene.domain.cell / speed);
+}
+
 std::vector<ContactField> contact_fields(const GrainFields& all) {
   std::vector<ContactField> fields;
   for (const VelocityField& f : all.fields) fields.push_back({f.grid, f.surfaces});
@@ -189,7 +203,7 @@ void collide(double dt, Simulation<Dim>& sim) {
   const ContactSettings settings{.friction = sim.scene.contact.friction,
                                  .gap_test = sim.scene.contact.gap == GapTest::volume,
                                  .cell = sim.scene.domain.cell,
-                                 .dt = dt,
+                                 .closing_time = closing_time(dt, sim),
                                  .capacity = 0.0};
   all.summary =
       collide_grains<Dim>(fields, all.shared, sim.scene, settings, *all.faces, sim.ledger.nodes);

@@ -30,7 +30,7 @@ ContactSettings settings_of(double friction, int dimension = 2) {
   return {.friction = friction,
           .gap_test = true,
           .cell = cell,
-          .dt = 1e-9,
+          .closing_time = 1e-9,
           .capacity = std::pow(cell, dimension)};
 }
 
@@ -117,7 +117,7 @@ TEST(Contact, AGapMayCloseButNotMore) {
     const ContactReport report = resolve_contact<2>(grains, settings, cubic_faces());
     EXPECT_NEAR(report.least_gap, gap, 1e-3 * gap);
     const double end = grains[0].end[1] - grains[1].end[1];
-    EXPECT_NEAR(end, std::min(approach, report.least_gap / settings.dt), 1e-9);
+    EXPECT_NEAR(end, std::min(approach, report.least_gap / settings.closing_time), 1e-9);
     EXPECT_GE(report.loss, 0.0);
   }
   auto grains = touching(1e-6, 1e-6, {0.0, 250.0}, {0.0, -250.0});

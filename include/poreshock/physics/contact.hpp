@@ -46,8 +46,8 @@ class FaceTable {
 struct ContactSettings {
   double friction = 0.0;
   bool gap_test = true;
-  double cell = 0.0;      ///< m
-  double dt = 0.0;        ///< s
+  double cell = 0.0;          ///< m
+  double closing_time = 0.0;  ///< s, in which a gap may close: dt or longer
   double capacity = 0.0;  ///< m^Dim, volume that fills the node: cell^Dim, less beyond the domain
 };
 
@@ -71,12 +71,13 @@ template <int Dim>
 double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
                 const ContactSettings& settings, const FaceTable& faces);
 
-/// Lets the grains of a node collide: a pair acts when it would close its gap within dt, and then
-/// ends at a relative velocity that closes the gap and no more; friction is Coulomb's. Two grains
-/// are solved exactly; more by projected Gauss-Seidel over ordered pairs. Every impulse acts on two
-/// grains, so momentum stays to rounding; the kinetic energy of the end velocities never grows. The
-/// heat of an impulse J is -J . (start + end)/2 of the relative velocity, half to each side: with
-/// the internal forces' work at mid-step the energy of the step then closes. Pure function.
+/// Lets the grains of a node collide: a pair acts when it would close its gap within closing_time,
+/// and then ends at a relative velocity that closes the gap in that time; friction is Coulomb's.
+/// Two grains are solved exactly; more by projected Gauss-Seidel over ordered pairs. Every impulse
+/// acts on two grains, so momentum stays to rounding; the kinetic energy of the end velocities
+/// never grows. The heat of an impulse J is -J . (start + end)/2 of the relative velocity, half to
+/// each side: with the internal forces' work at mid-step the energy of the step then closes. Pure
+/// function.
 template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
                               const FaceTable& faces);
