@@ -174,6 +174,52 @@ TEST(Grains, MeetWhenTheirFacesTouch) {
   EXPECT_LE(gap(), 0.2);
 }
 
+// Grains of one particle, thrown at a large one and at each other: they carry their momentum, and
+// nothing becomes NaN.
+TEST(Grains, OfOneParticleCarryMomentum) {
+  std::string text = R"(
+[domain]
+size = [0.2e-3, 0.2e-3]
+cell = 10e-6
+[boundary]
+low = "free"
+high = "free"
+[[body]]
+shape = "box"
+low = [50e-6, 50e-6]
+high = [150e-6, 90e-6]
+grain = 1
+[contact]
+friction = 0.3
+[time]
+end = 1e-6
+)";
+  for (int g = 0; g < 5; ++g) {
+    const int x = 61 + 20 * g;
+    text += "[[body]]\nshape = \"box\"\nlow = [" + std::to_string(x) + "e-6, " +
+            std::to_string(121 + 10 * (g % 2)) + "e-6]\nhigh = [" + std::to_string(x + 3) +
+            "e-6, " + std::to_string(124 + 10 * (g % 2)) +
+            "e-6]\ngrain = " + std::to_string(g + 2) + "\nvelocity = [" +
+            std::to_string(50 - 25 * g) + ".0, -500.0]\n";
+  }
+  Simulation<2> sim = start<2>(scene_of(text + aluminium_text), MPI_COMM_WORLD);
+  const HistoryRow before = stock(sim);
+  ASSERT_EQ(before.particles, 8 * 20 + 5);
+  advance_to(400, 0, sim);
+  const HistoryRow after = stock(sim);
+  EXPECT_EQ(after.particles, before.particles);
+  for (std::size_t a = 0; a < 2; ++a) {
+    EXPECT_NEAR(after.momentum[a], before.momentum[a], 1e-12 * std::abs(before.momentum[1]));
+  }
+  EXPECT_NEAR(after.total, before.total, 1e-12 * before.total);
+  double large = 0.0;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    if (sim.particles.grain[p] == 1) large += sim.particles.mass[p] * sim.particles.velocity[1][p];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &large, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_LT(large, 0.5 * before.momentum[1]);  // it has taken most of theirs
+}
+
 TEST(Grains, MuslIsRefused) {
   try {
     start<2>(scene_of(stacked_text(1, 0.0), {"transfer.preset=lineage", "transfer.update=musl"}),
