@@ -57,10 +57,19 @@ void print_sample(const Scene& scene, const SampleReport& report) {
     std::printf("cells per void diameter %.1f\n",
                 2.0 * scene.sample.void_radius / scene.domain.cell);
     if (report.islands > 0) {
-      std::printf("floating islands removed %lld, with %lld particles\n",
+      std::printf("floating islands %s %lld, with %lld particles\n",
+                  scene.sample.islands == Islands::grains ? "made grains" : "removed",
                   static_cast<long long>(report.islands),
                   static_cast<long long>(report.island_particles));
     }
+  }
+  if (makes_grains(scene.sample.kind)) {
+    std::printf("grains                  %zu, void fraction %.6f", report.grains.size(),
+                report.geometric_void_fraction);
+    if (scene.sample.kind != SampleKind::image) {
+      std::printf(" (asked %.6f), least gap %.3g m", scene.sample.porosity, report.least_gap);
+    }
+    std::printf("\nvoid fraction of the particles  %.6f\n", report.particle_void_fraction);
   }
   std::printf("particles               %lld\n", static_cast<long long>(report.particles));
   for (const std::string& warning : sample_warnings(scene, report)) {

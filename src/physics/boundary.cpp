@@ -1,6 +1,7 @@
 #include "poreshock/physics/boundary.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "poreshock/transfer/node_lanes.hpp"
 
@@ -111,11 +112,30 @@ double inward_impulse(const MirrorSet<Dim>& set, const std::array<double, Dim>& 
   return impulse * set.place[a].inward;
 }
 
+/// Takes Coulomb friction of the wall across the shock axis from the tangential velocity of a set,
+/// at most as much as stops it; returns the change.
 template <int Dim>
-void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity, double mass,
-            const Vector<Dim>& plane, NodeLedger& ledger) {
+std::array<double, Dim> rub(double friction, double push, double mass,
+                            std::array<double, Dim>& velocity) {
+  std::array<double, Dim> change{};
+  double square = 0.0;
+  for (int a = 0; a + 1 < Dim; ++a) square += velocity[a] * velocity[a];
+  const double speed = std::sqrt(square), most = friction * push / mass;
+  if (!(most > 0.0) || !(speed > 0.0)) return change;
+  const double share = most < speed ? most / speed : 1.0;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    change[a] = -share * velocity[a];
+    velocity[a] += change[a];
+  }
+  return change;
+}
+
+template <int Dim>
+void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity,
+            const std::array<double, Dim>& rubbed, double mass, const Vector<Dim>& plane,
+            NodeLedger& ledger) {
   using Motion = MotionLane<Dim>;
-  double heat = 0.0;
+  double heat = 0.0, friction_heat = 0.0;
   for (int k = 0; k < set.size; ++k) {
     Lanes& node = *set.member[k].node;
     double work = 0.0;
@@ -125,6 +145,8 @@ void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity, 
       node[Motion::end_velocity + a] = end;
       const double middle = 0.5 * (node[Motion::start_velocity + a] + end);
       heat -= impulse * (middle - plane[a]);
+      const double rubbing = node[Motion::mass] * (set.member[k].sign[a] * rubbed[a]);
+      friction_heat -= rubbing * (middle - plane[a]);
       work += impulse * plane[a];
       if (set.member[k].owned) {
         ledger.wall_impulse[a] += quantise(impulse, ledger.inverse_momentum_quantum);
@@ -132,12 +154,15 @@ void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity, 
     }
     if (set.member[k].owned) ledger.wall_work += quantise(work, ledger.inverse_energy_quantum);
   }
-  const double per_mass = heat / mass;
+  const double per_mass = heat / mass, rubbed_per_mass = friction_heat / mass;
   for (int k = 0; k < set.size; ++k) {
     Lanes& node = *set.member[k].node;
     node[Motion::heat] += per_mass;
     if (set.member[k].owned) {
-      ledger.wall_heat += quantise(node[Motion::mass] * per_mass, ledger.inverse_energy_quantum);
+      const double all = node[Motion::mass] * per_mass;
+      const double rubbing = node[Motion::mass] * rubbed_per_mass;
+      ledger.wall_heat += quantise(all - rubbing, ledger.inverse_energy_quantum);
+      ledger.friction_heat += quantise(rubbing, ledger.inverse_energy_quantum);
     }
   }
 }
@@ -146,11 +171,11 @@ void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity, 
 /// without.
 template <int Dim>
 void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim>& active,
-             const std::array<int, Dim>& index, const Vector<Dim>& plane, SlabGrid& grid,
-             NodeLedger& ledger) {
+             const std::array<int, Dim>& index, const Vector<Dim>& plane, double friction,
+             SlabGrid& grid, NodeLedger& ledger) {
   const MirrorSet<Dim> set = mirror_set<Dim>(place, active, index, grid);
   double mass = 0.0;
-  const std::array<double, Dim> velocity = symmetric_velocity<Dim>(set, plane, mass);
+  std::array<double, Dim> velocity = symmetric_velocity<Dim>(set, plane, mass);
   if (!(mass > 0.0)) return;
   for (int a = Dim - 1; a >= 0; --a) {
     if (!active[a] || place[a].kind != SideKind::wall) continue;
@@ -160,15 +185,21 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
     bool any = false;
     for (int b = 0; b < Dim; ++b) any = any || rest[b];
     if (!any) return;
-    project<Dim>(place, rest, index, plane, grid, ledger);
+    project<Dim>(place, rest, index, plane, friction, grid, ledger);
     if (place[a].place == Place::mirrored) {
       std::array<int, Dim> other = index;
       other[a] = place[a].image;
-      project<Dim>(place, rest, other, plane, grid, ledger);
+      project<Dim>(place, rest, other, plane, friction, grid, ledger);
     }
     return;
   }
-  impose<Dim>(set, velocity, mass, plane, ledger);
+  constexpr int shock = Dim - 1;
+  std::array<double, Dim> rubbed{};
+  if (friction > 0.0 && active[shock] && place[shock].kind == SideKind::wall) {
+    const double push = inward_impulse<Dim>(set, velocity, plane, shock);
+    rubbed = rub<Dim>(friction, push, mass, velocity);
+  }
+  impose<Dim>(set, velocity, rubbed, mass, plane, ledger);
 }
 
 }  // namespace
@@ -199,7 +230,9 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
         const bool beyond = index[a] == 0 || index[a] == shape.nodes[a] - 1;
         original = original && !(active[a] && beyond);
       }
-      if (any && original) project<Dim>(place, active, index, grid_velocity, grid, ledger);
+      if (!any || !original) continue;
+      const Side& side = place[Dim - 1].inward > 0 ? boundary.low : boundary.high;
+      project<Dim>(place, active, index, grid_velocity, side.friction, grid, ledger);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "block.hpp"
+#include "grains.hpp"
 #include "islands.hpp"
 #include "lattice.hpp"
 #include "poreshock/core/error.hpp"
@@ -13,10 +14,17 @@
 namespace poreshock {
 namespace {
 
-/// Takes the floating pieces of an overlapping sample out and counts them.
-void remove_islands(const Scene& scene, const Lattice& lattice, LatticeRange range,
+/// Owner of the first generated grain.
+std::int32_t first_grain_owner(const Scene& scene) {
+  return owner_first_body + static_cast<std::int32_t>(scene.bodies.size());
+}
+
+/// Takes the floating pieces of an overlapping sample out, or makes them grains, and counts them.
+void settle_islands(const Scene& scene, const Lattice& lattice, LatticeRange range,
                     std::vector<std::int32_t>& owners, SampleReport& report) {
-  const Islands islands = find_islands(scene, report.voids);
+  const IslandPieces islands = find_islands(scene, report.voids);
+  const bool become_grains = scene.sample.islands == Islands::grains;
+  if (become_grains) report.grains = grains_of_islands(scene, lattice, islands);
   std::vector<bool> seen(islands.piece_size.size(), false);
   const std::int64_t rows_per_layer = lattice.layer_size() / lattice.sites[0];
   const std::int64_t rows = static_cast<std::int64_t>(islands.runs.row_start.size()) - 1;
@@ -32,20 +40,23 @@ void remove_islands(const Scene& scene, const Lattice& lattice, LatticeRange ran
       if (local_row < 0) continue;
       // An island counts where its first site lies, so that counts of ranges add up.
       if (first_run) ++report.islands;
+      const std::int32_t grain = run.piece - (run.piece > islands.largest ? 1 : 0);
       for (std::int64_t i = run.begin; i < run.end; ++i) {
         std::int32_t& owner = owners[static_cast<std::size_t>(local_row * lattice.sites[0] + i)];
         // Sites that a body took over stay.
         if (owner != owner_sample) continue;
-        owner = owner_none;
+        owner = become_grains ? first_grain_owner(scene) + grain : owner_none;
         ++report.island_particles;
       }
     }
   }
 }
 
-std::vector<std::int32_t> find_owners(const Scene& scene, const Lattice& lattice,
-                                      LatticeRange range, SampleReport& report) {
+std::vector<std::int32_t> find_owners(const Scene& scene, const GrainLayout& layout,
+                                      const Lattice& lattice, LatticeRange range,
+                                      SampleReport& report) {
   std::vector<std::int32_t> owners = sample_owners(scene, report.voids, range);
+  give_grains(scene, layout, range, first_grain_owner(scene), owners);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     give_region(lattice, range, scene.bodies[b].region,
                 owner_first_body + static_cast<std::int32_t>(b), owners);
@@ -54,7 +65,7 @@ std::vector<std::int32_t> find_owners(const Scene& scene, const Lattice& lattice
     give_region(lattice, range, region, owner_none, owners);
   }
   const bool may_float = scene.sample.kind == SampleKind::random_voids && scene.sample.overlap;
-  if (may_float) remove_islands(scene, lattice, range, owners, report);
+  if (may_float) settle_islands(scene, lattice, range, owners, report);
   return owners;
 }
 
@@ -68,7 +79,7 @@ struct Motion {
   Triple centre{};       ///< m
 };
 
-std::vector<Motion> find_motions(const Scene& scene) {
+std::vector<Motion> find_motions(const Scene& scene, const std::vector<Grain>& grains) {
   Motion sample;
   sample.material = scene.sample.material;
   sample.velocity = scene.loading.frame;
@@ -82,6 +93,12 @@ std::vector<Motion> find_motions(const Scene& scene) {
     motion.spin = body.spin;
     if (scene.dimension == 2) motion.spin[0] = motion.spin[1] = 0.0;
     motion.centre = centroid(body.region, scene.dimension);
+    motions.push_back(motion);
+  }
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    Motion motion = sample;
+    motion.material = grains[g].material;
+    motion.grain = first_grain_number(scene) + static_cast<int>(g);
     motions.push_back(motion);
   }
   for (Motion& motion : motions) {
@@ -122,8 +139,9 @@ void set_particle(const Motion& motion, const Triple& position, double volume, s
 
 template <int Dim>
 void make_particles(const Scene& scene, const Lattice& lattice, LatticeRange range,
-                    const std::vector<std::int32_t>& owners, Particles<Dim>& particles) {
-  const std::vector<Motion> motions = find_motions(scene);
+                    const std::vector<std::int32_t>& owners, const std::vector<Grain>& grains,
+                    Particles<Dim>& particles) {
+  const std::vector<Motion> motions = find_motions(scene, grains);
   double volume = 1.0;
   for (int axis = 0; axis < Dim; ++axis) volume *= lattice.spacing;
   const auto filled = [](std::int32_t owner) { return owner != owner_none; };
@@ -155,6 +173,12 @@ void set_particle_void_fraction(SampleReport& report) {
 
 }  // namespace
 
+int first_grain_number(const Scene& scene) {
+  int largest = 0;
+  for (const Body& body : scene.bodies) largest = std::max(largest, body.grain);
+  return largest + 1;
+}
+
 template <int Dim>
 void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, SampleReport& report) {
   const Lattice lattice = make_lattice(scene);
@@ -168,13 +192,20 @@ void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, Sam
     report.least_gap = least_gap(report.voids, block);
     report.geometric_void_fraction = void_fraction(report.voids, block);
   }
-  const std::vector<std::int32_t> owners = find_owners(scene, lattice, range, report);
+  const GrainLayout layout = place_grains(scene);
+  if (!layout.grains.empty()) {
+    report.grains = layout.grains;
+    report.geometric_void_fraction = layout.void_fraction;
+    if (layout.gap > 0.0) report.least_gap = layout.gap;
+  }
+  require_apart(scene, lattice);
+  const std::vector<std::int32_t> owners = find_owners(scene, layout, lattice, range, report);
   const std::int64_t block_layers =
       std::clamp(lattice.sample_layers - range.first, std::int64_t{0}, range.last - range.first);
   report.lattice_sites = block_layers * lattice.layer_size();
   report.block_particles = std::count_if(owners.begin(), owners.begin() + report.lattice_sites,
                                          [](std::int32_t owner) { return owner != owner_none; });
-  make_particles(scene, lattice, range, owners, particles);
+  make_particles(scene, lattice, range, owners, report.grains, particles);
   report.particles = static_cast<std::int64_t>(particles.size());
   set_particle_void_fraction(report);
 }

@@ -98,9 +98,22 @@ std::vector<std::int64_t> find_pieces(const Lattice& lattice, const std::array<b
   return sizes;
 }
 
-Islands find_islands(const Scene& scene, const std::vector<Void>& voids) {
+std::vector<Grain> grains_of_islands(const Scene& scene, const Lattice& lattice,
+                                     const IslandPieces& islands) {
+  double volume = 1.0;
+  for (int axis = 0; axis < lattice.dimension; ++axis) volume *= lattice.spacing;
+  std::vector<Grain> grains;
+  for (std::size_t p = 0; p < islands.piece_size.size(); ++p) {
+    if (static_cast<std::int32_t>(p) == islands.largest) continue;
+    const double measure = static_cast<double>(islands.piece_size[p]) * volume;
+    grains.push_back({.center = {}, .measure = measure, .material = scene.sample.material});
+  }
+  return grains;
+}
+
+IslandPieces find_islands(const Scene& scene, const std::vector<Void>& voids) {
   const Lattice lattice = make_lattice(scene);
-  Islands result;
+  IslandPieces result;
   // A few million sites at a time keep the memory small.
   const std::int64_t slab =
       std::max(std::int64_t{1}, (std::int64_t{1} << 22) / lattice.layer_size());

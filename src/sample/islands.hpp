@@ -32,13 +32,17 @@ std::vector<std::int64_t> find_pieces(const Lattice& lattice, const std::array<b
 
 /// All runs of the sample that float: they belong to a piece that is not the largest one (the first
 /// of the largest on a tie). Works through the whole lattice on every rank.
-struct Islands {
+struct IslandPieces {
   Runs runs;                             ///< of all sample layers
   std::vector<std::int64_t> piece_size;  ///< sites
   std::int32_t largest = -1;             ///< the piece that stays
 };
 
+/// The floating pieces as grains, in the order of their numbers.
+std::vector<Grain> grains_of_islands(const Scene& scene, const Lattice& lattice,
+                                     const IslandPieces& islands);
+
 /// Islands of the sample with its generated voids and the scene's explicit voids taken out.
-Islands find_islands(const Scene& scene, const std::vector<Void>& voids);
+IslandPieces find_islands(const Scene& scene, const std::vector<Void>& voids);
 
 }  // namespace poreshock

@@ -1,6 +1,8 @@
 #include "lattice.hpp"
 
+#include "poreshock/core/error.hpp"
 #include "poreshock/sample/bodies.hpp"
+#include "text.hpp"
 
 namespace poreshock {
 namespace {
@@ -116,20 +118,25 @@ std::vector<std::int32_t> sample_owners(const Scene& scene, const std::vector<Vo
                                    owner_none);
   const std::int64_t filled =
       std::clamp(lattice.sample_layers - range.first, std::int64_t{0}, layers);
-  std::fill_n(owners.begin(), filled * lattice.layer_size(), owner_sample);
+  // Grains take their own sites of an empty block.
+  if (!makes_grains(scene.sample.kind)) {
+    std::fill_n(owners.begin(), filled * lattice.layer_size(), owner_sample);
+  }
   for (const Void& v : voids) {
-    Box box;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.low[axis] = v.center[axis] - v.radius;
-      box.high[axis] = v.center[axis] + v.radius;
-    }
-    const Region region{.center = v.center, .radius = v.radius, .points = {}};
-    for_each_site(lattice, range, box.low, box.high, scene.domain.periodic,
-                  [&](std::size_t site, const Triple& position) {
-                    if (contains(region, position, lattice.dimension)) owners[site] = owner_none;
-                  });
+    give_ball(lattice, range, scene.domain.periodic, v.center, v.radius, owner_none, owners);
   }
   return owners;
+}
+
+void give_ball(const Lattice& lattice, LatticeRange range, const std::array<bool, 2>& periodic,
+               const Triple& center, double radius, std::int32_t owner,
+               std::vector<std::int32_t>& owners) {
+  const Region region{.center = center, .radius = radius, .points = {}};
+  const Box box = bounding_box(region);
+  for_each_site(lattice, range, box.low, box.high, periodic,
+                [&](std::size_t site, const Triple& position) {
+                  if (contains(region, position, lattice.dimension)) owners[site] = owner;
+                });
 }
 
 void give_region(const Lattice& lattice, LatticeRange range, const Region& region,
@@ -139,6 +146,47 @@ void give_region(const Lattice& lattice, LatticeRange range, const Region& regio
                 [&](std::size_t site, const Triple& position) {
                   if (contains(region, position, lattice.dimension)) owners[site] = owner;
                 });
+}
+
+namespace {
+
+[[noreturn]] void throw_overlap(const Scene& scene, std::size_t a, std::size_t b,
+                                const Triple& position) {
+  const auto body = [&](std::size_t i) {
+    return "body." + std::to_string(i) + " (grain " + std::to_string(scene.bodies[i].grain) + ")";
+  };
+  std::string place = length_text(position[0]) + ", " + length_text(position[1]);
+  if (scene.dimension == 3) place += ", " + length_text(position[2]);
+  throw InputError(body(a) + " and " + body(b) + " overlap, for example at (" + place +
+                   "). Allowed are bodies of different grains that have no point in common. Move "
+                   "one, or give both the same grain to make them one piece.");
+}
+
+}  // namespace
+
+void require_apart(const Scene& scene, const Lattice& lattice) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Box box_b = bounding_box(scene.bodies[b].region);
+    for (std::size_t a = 0; a < b; ++a) {
+      if (scene.bodies[a].grain == scene.bodies[b].grain) continue;
+      Box both = bounding_box(scene.bodies[a].region);
+      bool apart = false;
+      for (int axis = 0; axis < scene.dimension; ++axis) {
+        both.low[axis] = std::max(both.low[axis], box_b.low[axis]);
+        both.high[axis] = std::min(both.high[axis], box_b.high[axis]);
+        apart = apart || both.low[axis] > both.high[axis];
+      }
+      if (apart) continue;
+      const LatticeRange all{0, lattice.layers()};
+      for_each_site(lattice, all, both.low, both.high, {false, false},
+                    [&](std::size_t, const Triple& position) {
+                      if (contains(scene.bodies[a].region, position, scene.dimension) &&
+                          contains(scene.bodies[b].region, position, scene.dimension)) {
+                        throw_overlap(scene, a, b, position);
+                      }
+                    });
+    }
+  }
 }
 
 }  // namespace poreshock

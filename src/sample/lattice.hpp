@@ -43,6 +43,33 @@ inline constexpr std::int32_t owner_first_body = 1;
 std::vector<std::int32_t> sample_owners(const Scene& scene, const std::vector<Void>& voids,
                                         LatticeRange range);
 
+/// Gives the sites of the range that lie in the disc or ball, images across periodic sides
+/// included, to `owner`.
+void give_ball(const Lattice& lattice, LatticeRange range, const std::array<bool, 2>& periodic,
+               const Triple& center, double radius, std::int32_t owner,
+               std::vector<std::int32_t>& owners);
+
+/// Calls visit(index into the range's owners, position) for the sites of the range that lie in the
+/// sample block.
+template <class Visit>
+void for_each_block_site(const Lattice& lattice, LatticeRange range, Visit&& visit) {
+  const std::int64_t layer = lattice.layer_size();
+  const auto shock = static_cast<std::size_t>(lattice.shock_axis());
+  for (std::int64_t k = range.first; k < std::min(range.last, lattice.sample_layers); ++k) {
+    for (std::int64_t i = 0; i < layer; ++i) {
+      Triple point{};
+      point[0] = site_coordinate(lattice, i % lattice.sites[0]);
+      if (lattice.dimension == 3) point[1] = site_coordinate(lattice, i / lattice.sites[0]);
+      point[shock] = site_coordinate(lattice, k);
+      visit(static_cast<std::size_t>((k - range.first) * layer + i), point);
+    }
+  }
+}
+
+/// Throws InputError that names the bodies and a site when two bodies of different grains share a
+/// site of the lattice. Works on the whole lattice, the same on every rank.
+void require_apart(const Scene& scene, const Lattice& lattice);
+
 /// Gives the sites of the range that lie in the region to `owner`.
 void give_region(const Lattice& lattice, LatticeRange range, const Region& region,
                  std::int32_t owner, std::vector<std::int32_t>& owners);

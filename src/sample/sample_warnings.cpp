@@ -63,7 +63,9 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
   }
 }
 
-void warn_islands(const SampleReport& report, std::vector<std::string>& warnings) {
+void warn_islands(const Scene& scene, const SampleReport& report,
+                  std::vector<std::string>& warnings) {
+  if (scene.sample.islands == Islands::grains) return;
   const double all = static_cast<double>(report.particles + report.island_particles);
   const double share = static_cast<double>(report.island_particles) / all;
   if (!(share > 0.01)) return;
@@ -74,15 +76,46 @@ void warn_islands(const SampleReport& report, std::vector<std::string>& warnings
                      "sample.seed.");
 }
 
+/// Edge of the square or cube of a grain's measure, cells.
+double cells_across(const Scene& scene, const Grain& grain) {
+  return std::pow(grain.measure, 1.0 / scene.dimension) / scene.domain.cell;
+}
+
+void warn_grains(const Scene& scene, const SampleReport& report,
+                 std::vector<std::string>& warnings) {
+  constexpr double least_cells = 8.0;
+  std::size_t carriers = 0, coarse = 0;
+  for (const Grain& grain : report.grains) {
+    const double cells = cells_across(scene, grain);
+    if (cells < 1.0) {
+      ++carriers;
+    } else if (cells < least_cells) {
+      ++coarse;
+    }
+  }
+  const std::string all = " of " + std::to_string(report.grains.size()) + " grains ";
+  if (carriers > 0) {
+    warnings.push_back(std::to_string(carriers) + all +
+                       "are smaller than a cell: they carry momentum, but neither rotation, "
+                       "friction nor their gaps are resolved. Set domain.cell finer, or make the "
+                       "grains larger.");
+  }
+  if (coarse > 0) {
+    warnings.push_back(std::to_string(coarse) + all + "are less than " + short_number(least_cells) +
+                       " cells across; their deformation is not resolved. Set domain.cell finer.");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> sample_warnings(const Scene& scene, const SampleReport& report) {
   std::vector<std::string> warnings;
+  warn_grains(scene, report, warnings);
   if (report.voids.empty()) return warnings;
   warn_resolution(scene, warnings);
   warn_radius(scene, report, warnings);
   warn_gaps(scene, report, warnings);
-  warn_islands(report, warnings);
+  warn_islands(scene, report, warnings);
   return warnings;
 }
 

@@ -26,13 +26,6 @@ bool whole_multiple(double value, double unit) {
   return nearest >= 1.0 && std::abs(ratio - nearest) <= tolerance * nearest;
 }
 
-/// A problem of a key that was given with a wrong value, or not given at all.
-std::string wrong(const Report& report, const char* path, const std::string& found,
-                  const std::string& allowed) {
-  if (!report.origins.contains(path)) return "missing, give " + allowed;
-  return "found " + found + ", allowed " + allowed;
-}
-
 std::string indexed(const char* table, std::size_t index, const char* key) {
   return std::string(table) + "." + std::to_string(index) + "." + key;
 }
@@ -62,10 +55,17 @@ void check_domain(const Scene& scene, Report& report) {
 }
 
 void check_side(const Side& side, const std::string& path, Report& report) {
-  if (side.kind == SideKind::wall || side.velocity == 0.0) return;
-  add_problem(path + ".velocity",
-              "found " + plain_number(side.velocity) + " m/s, allowed only with kind = \"wall\"",
-              report);
+  if (side.kind == SideKind::wall) return;
+  if (side.velocity != 0.0) {
+    add_problem(path + ".velocity",
+                "found " + plain_number(side.velocity) + " m/s, allowed only with kind = \"wall\"",
+                report);
+  }
+  if (side.friction != 0.0) {
+    add_problem(path + ".friction",
+                "found " + plain_number(side.friction) + ", allowed only with kind = \"wall\"",
+                report);
+  }
 }
 
 /// The background grid rides with a moving wall, so the other side may not stay behind.
@@ -137,8 +137,8 @@ void check_sample(const Scene& scene, Report& report) {
   if (sample.kind == SampleKind::none) {
     if (scene.bodies.empty() && good(report, {"body"})) {
       add_problem("sample",
-                  "found no material in the domain, allowed a [sample] with kind = \"solid\" or "
-                  "\"random_voids\", or at least one [[body]]",
+                  "found no material in the domain, allowed a [sample] with a kind other "
+                  "than \"none\", or at least one [[body]]",
                   report);
     }
     return;
@@ -151,6 +151,7 @@ void check_sample(const Scene& scene, Report& report) {
                 report);
   }
   if (sample.kind == SampleKind::random_voids) check_voids_of_sample(sample, report);
+  check_grains(scene, report);
 }
 
 /// Twice the signed area of a polygon.

@@ -50,7 +50,14 @@ Scene parse_scene(const std::string& text, const std::string& name,
 }
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& overrides) {
-  return parse_scene(file_text(path), path, overrides);
+  Scene scene = parse_scene(file_text(path), path, overrides);
+  // The resolved scene is stored elsewhere: the image must still be found from there.
+  if (!scene.sample.image.empty()) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    scene.sample.image =
+        std::filesystem::absolute(folder / scene.sample.image).lexically_normal().string();
+  }
+  return scene;
 }
 
 }  // namespace poreshock

@@ -46,6 +46,13 @@ std::string report_text(const Report& report);
 /// The text ", did you mean "x"?" for the allowed name nearest to `name`; empty when none is near.
 std::string hint(const std::string& name, const std::vector<std::string>& allowed);
 
+/// Text of a problem of a key that was given with a wrong value, or not given at all.
+inline std::string wrong(const Report& report, const char* path, const std::string& found,
+                         const std::string& allowed) {
+  if (!report.origins.contains(path)) return "missing, give " + allowed;
+  return "found " + found + ", allowed " + allowed;
+}
+
 /// True when none of the paths has a problem.
 inline bool good(const Report& report, std::initializer_list<const char*> paths) {
   return std::none_of(paths.begin(), paths.end(),

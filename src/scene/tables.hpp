@@ -29,6 +29,7 @@ void visit_side(Visitor& visitor, Side& side) {
       {"wall", SideKind::wall}, {"free", SideKind::free}, {"symmetry", SideKind::symmetry}};
   choice(visitor, "kind", side.kind, kinds, {"a wall only pushes, a symmetry plane also holds"});
   visitor.number("velocity", side.velocity, {any_number, "m/s", "of a wall, upwards"});
+  visitor.number("friction", side.friction, {not_negative, "", "of a wall, Coulomb"});
 }
 
 template <typename Visitor>
@@ -91,11 +92,38 @@ void visit_material_name(Visitor& visitor, int& index, const Scene& scene) {
 }
 
 template <typename Visitor>
+void visit_grains(Visitor& visitor, Sample& sample, const Scene& scene) {
+  visitor.number("grain_radius", sample.grain_radius,
+                 {not_negative, "m", "median radius of a grain; Voronoi: of the equal disc"});
+  visitor.number("grain_spread", sample.grain_spread,
+                 {not_negative, "", "standard deviation of ln(radius); 0 = all equal"});
+  visitor.number("grain_gap", sample.grain_gap,
+                 {not_negative, "m", "least gap between two packed grains"});
+  visitor.text("image", sample.image, {"PNG or PGM file, relative to the scene's folder"});
+  visitor.number("pixel", sample.pixel, {not_negative, "m", "side of a pixel of the image"});
+  visitor.number("threshold", sample.threshold,
+                 {not_negative, "", "grey value from which on a pixel is solid; without: labels"});
+  visitor.tables("mixture", sample.mixture, {"A material of the grains."},
+                 [&](auto& inner, MixturePart& part) {
+                   visit_material_name(inner, part.material, scene);
+                   inner.number("fraction", part.fraction,
+                                {{.low = 0.0, .high = 1.0, .above_low = true},
+                                 "",
+                                 "share of the volume of all grains",
+                                 Need::required});
+                 });
+}
+
+template <typename Visitor>
 void visit_sample(Visitor& visitor, Scene& scene) {
   Sample& sample = scene.sample;
   const Names<SampleKind> kinds{{"none", SampleKind::none},
                                 {"solid", SampleKind::solid},
-                                {"random_voids", SampleKind::random_voids}};
+                                {"random_voids", SampleKind::random_voids},
+                                {"packed_grains", SampleKind::packed_grains},
+                                {"voronoi_grains", SampleKind::voronoi_grains},
+                                {"image", SampleKind::image}};
+  const Names<Islands> fates{{"removed", Islands::removed}, {"grains", Islands::grains}};
   const Names<PorosityDefinition> definitions{
       {"void_fraction", PorosityDefinition::void_fraction},
       {"distension_minus_1", PorosityDefinition::distension_minus_1}};
@@ -115,6 +143,9 @@ void visit_sample(Visitor& visitor, Scene& scene) {
   visitor.number("keep_out", sample.keep_out,
                  {not_negative, "m", "least solid between a void and bottom or top"});
   visitor.flag("overlap", sample.overlap, {"true where voids may overlap"});
+  choice(visitor, "islands", sample.islands, fates,
+         {"what becomes of pieces that overlapping voids cut off"});
+  visit_grains(visitor, sample, scene);
   integer(visitor, "seed", sample.seed, {not_negative, "", "of the random placement"});
   integer(visitor, "particles_per_cell", sample.particles_per_cell,
           {{.low = 1.0, .high = 8.0}, "", "per direction, bodies too"});
@@ -160,7 +191,8 @@ template <typename Visitor>
 void visit_body(Visitor& visitor, Body& body, const Scene& scene) {
   visit_region(visitor, body.region, scene.dimension);
   visit_material_name(visitor, body.material, scene);
-  integer(visitor, "grain", body.grain, {not_negative, "", "number of the grain it belongs to"});
+  integer(visitor, "grain", body.grain,
+          {{.low = 0.0, .high = 1e6}, "", "number of the grain it belongs to"});
   visitor.vector("velocity", body.velocity, scene.dimension,
                  {any_number, "m/s", "added to the loading velocity"});
   const NumberRule spin{any_number, "rad/s", "about the centroid"};
@@ -196,6 +228,15 @@ void visit_viscosity(Visitor& visitor, Viscosity& viscosity) {
 template <typename Visitor>
 void visit_conduction(Visitor& visitor, Conduction& conduction) {
   visitor.flag("on", conduction.on, {"true where heat flows, by material.conductivity"});
+}
+
+template <typename Visitor>
+void visit_contact(Visitor& visitor, Contact& contact) {
+  const Names<GapTest> tests{{"volume", GapTest::volume}, {"none", GapTest::none}};
+  visitor.number("friction", contact.friction,
+                 {not_negative, "", "coefficient of Coulomb friction; 1e30 = stick"});
+  choice(visitor, "gap", contact.gap, tests,
+         {"contact where grains fill a node's space, or wherever they approach"});
 }
 
 template <typename Visitor>
@@ -308,6 +349,8 @@ void visit_scene(Visitor& visitor, Scene& scene) {
                 [&](auto& inner) { visit_viscosity(inner, scene.viscosity); });
   visitor.table("conduction", {"Conduction of heat."},
                 [&](auto& inner) { visit_conduction(inner, scene.conduction); });
+  visitor.table("contact", {"Contact between grains."},
+                [&](auto& inner) { visit_contact(inner, scene.contact); });
   visitor.table("time", {"Time."}, [&](auto& inner) { visit_time(inner, scene.time); });
   visitor.table("output", {"What is written and when."},
                 [&](auto& inner) { visit_output(inner, scene); });

@@ -18,6 +18,8 @@ template <class LedgerType, class Visitor>
 void for_each_sum(LedgerType& l, Visitor&& visit) {
   visit(l.nodes.filter_heat);
   visit(l.nodes.wall_heat);
+  visit(l.nodes.contact_heat);
+  visit(l.nodes.friction_heat);
   visit(l.nodes.wall_work);
   visit(l.nodes.body_work);
   for (auto& x : l.nodes.body_impulse) visit(x);
@@ -147,7 +149,9 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
                               ledger.viscous_heat,
                               ledger.nodes.filter_heat + ledger.transfer_heat,
                               ledger.nodes.wall_heat,
-                              ledger.conduction};
+                              ledger.conduction,
+                              ledger.nodes.contact_heat,
+                              ledger.nodes.friction_heat};
   sum(sums, communicator);
   std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
                                       ledger.guards.compression + ledger.guards.sound_speed +
@@ -171,6 +175,8 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   row.filter_heat = energy(sums[8]);
   row.wall_heat = energy(sums[9]);
   row.conduction = energy(sums[10]);
+  row.contact_heat = energy(sums[11]);
+  row.friction_heat = energy(sums[12]);
   row.total = energy(sums[0] + sums[1] + sums[4] - sums[5] - sums[6]);
   balance_momentum(momentum, ledger, communicator, row);
   return row;

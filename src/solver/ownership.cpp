@@ -127,6 +127,7 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
   if (sim.grid) {
     const double now = heaviest(weights, sim.grid->starts());
     if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;
+    release_fields(sim.grain_fields);
     sim.grid.reset();
     sim.averages.reset();
     sim.heat.reset();

@@ -22,7 +22,7 @@ double communication(const PhaseTable& phases) {
 
 double compute(const PhaseTable& phases) {
   return seconds(phases, {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::average,
-                          PhaseName::grid_update, PhaseName::grid_to_particles,
+                          PhaseName::grid_update, PhaseName::contact, PhaseName::grid_to_particles,
                           PhaseName::conduction, PhaseName::stress});
 }
 

@@ -88,13 +88,14 @@ void take_report(const StressReport& report, Simulation<Dim>& sim) {
 /// Calls visit(rows) for chunks of the rows that are awake, so small that what the stress update
 /// takes from the grid stays in the cache. MUSL needs all particles moved before their stress
 /// follows.
-template <int Dim, class Visit>
-void for_each_chunk(const Simulation<Dim>& sim, Visit&& visit) {
+template <class Visit>
+void for_each_chunk(const Transfer& transfer, const CellOrder& cells, const SlabGrid& grid,
+                    Visit&& visit) {
   constexpr std::uint32_t chunk = 1024;  // particles
-  const RowRange awake = awake_rows(sim.cells, *sim.grid);
+  const RowRange awake = awake_rows(cells, grid);
   // Collective there, so also where nothing is awake.
-  if (sim.scene.transfer.update == VelocityUpdate::musl) return visit(awake);
-  const auto place = [&](int row) { return first_place(sim.cells, *sim.grid, row); };
+  if (transfer.update == VelocityUpdate::musl) return visit(awake);
+  const auto place = [&](int row) { return first_place(cells, grid, row); };
   for (RowRange rows = {awake.first, awake.first}; rows.first < awake.last;
        rows.first = rows.last) {
     do {
@@ -120,14 +121,15 @@ void update_from_particles(double dt, Simulation<Dim>& sim) {
                   sim.step_data);
 }
 
-/// Nodes to particles and stress of the particles of some rows.
+/// Nodes to particles and stress of the particles of some rows in one velocity field.
 template <int Dim>
-void update_particles(RowRange rows, double dt, Simulation<Dim>& sim, StressReport& report) {
+void update_particles(const CellOrder& cells, RowRange rows, const SlabGrid& grid,
+                      const SlabGrid* averages, double dt, Simulation<Dim>& sim,
+                      StressReport& report) {
   const Transfer& transfer = sim.scene.transfer;
   {
     const Phase phase(sim.phases, PhaseName::grid_to_particles);
-    grid_to_particles(*sim.grid, sim.averages.get(), sim.cells, rows, transfer,
-                      sim.stress_settings.grid_velocity, dt,
+    grid_to_particles(grid, averages, cells, rows, transfer, sim.stress_settings.grid_velocity, dt,
                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
                       sim.ledger.transfer_heat);
   }
@@ -136,11 +138,36 @@ void update_particles(RowRange rows, double dt, Simulation<Dim>& sim, StressRepo
     update_from_particles(dt, sim);
   }
   const Phase phase(sim.phases, PhaseName::stress);
-  const std::uint32_t first = first_place(sim.cells, *sim.grid, rows.first);
-  const std::span places(sim.cells.order.data() + first,
-                         first_place(sim.cells, *sim.grid, rows.last) - first);
+  const std::uint32_t first = first_place(cells, grid, rows.first);
+  const std::span places(cells.order.data() + first, first_place(cells, grid, rows.last) - first);
   update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, sim.particles,
                      report);
+}
+
+/// Momentum, contact and boundaries on the nodes of all velocity fields.
+template <int Dim>
+void update_grids(double dt, Simulation<Dim>& sim) {
+  NodeLedger& ledger = sim.ledger.nodes;
+  const Transfer& transfer = sim.scene.transfer;
+  {
+    const Phase phase(sim.phases, PhaseName::grid_update);
+    for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+      integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, grid, ledger);
+    });
+  }
+  {
+    const Phase phase(sim.phases, PhaseName::contact);
+    collide(dt, sim);
+  }
+  const Phase phase(sim.phases, PhaseName::grid_update);
+  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+    apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, grid, ledger);
+    if (sim.body_force.squaredNorm() > 0.0) add_body_work<Dim>(sim.body_force, dt, grid, ledger);
+  });
+  finish_contact(sim);
+  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+    prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
+  });
 }
 
 }  // namespace
@@ -153,6 +180,7 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   SampleReport report;
   fill<Dim>(scene, {layers * me / ranks, layers * (me + 1) / ranks}, sim.particles, report);
   sim.sample = total(report, communicator);
+  find_grains(sim);
   rebalance(0.0, sim);
   release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
@@ -189,6 +217,7 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.ledger.row_time = std::bit_cast<double>(state.integers.at(4));
   restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
+  find_grains(sim);
   rebalance(0.0, sim);
   sim.clock.disturbed = disturbed_rows(sim);
   agree_on_step(false, sim.clock, communicator);
@@ -222,10 +251,13 @@ void advance(Simulation<Dim>& sim, double dt) {
   const bool averaging = transfer.averaging > 0.0;
   sort_particles(sim);
   sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
+  split_by_colour(sim);
   if (transfer.velocity == VelocityTransfer::fmpm) {
     const Phase phase(sim.phases, PhaseName::filter);
-    filter_velocity(sim.cells, transfer, sim.ledger.nodes.inverse_energy_quantum, *sim.grid,
-                    sim.particles, sim.step_data, sim.ledger.transfer_heat);
+    for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid*) {
+      filter_velocity(cells, transfer, sim.ledger.nodes.inverse_energy_quantum, grid, sim.particles,
+                      sim.step_data, sim.ledger.transfer_heat);
+    });
   }
   if (sim.heat) {
     // At the start of the step density, energy and position belong together and the sort holds; the
@@ -235,34 +267,29 @@ void advance(Simulation<Dim>& sim, double dt) {
                  sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
                  sim.ledger.conduction);
   }
-  if (averaging) {
-    const Phase phase(sim.phases, PhaseName::average);
-    average_pressure(sim.particles, sim.cells, transfer, *sim.averages, sim.step_data);
-  }
-  {
-    const Phase phase(sim.phases, PhaseName::particles_to_grid);
-    particles_to_grid(sim.particles, sim.cells, transfer, sim.step_data, *sim.grid);
-  }
-  {
-    const Phase phase(sim.phases, PhaseName::exchange);
-    sim.grid->exchange();
-  }
-  {
-    const Phase phase(sim.phases, PhaseName::grid_update);
-    NodeLedger& ledger = sim.ledger.nodes;
-    integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, *sim.grid, ledger);
-    apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, *sim.grid, ledger);
-    if (sim.body_force.squaredNorm() > 0.0) {
-      add_body_work<Dim>(sim.body_force, dt, *sim.grid, ledger);
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    if (averaging) {
+      const Phase phase(sim.phases, PhaseName::average);
+      average_pressure(sim.particles, cells, transfer, *averages, sim.step_data);
     }
-    prepare_gather<Dim>(transfer, damped_share(transfer, dt), *sim.grid);
-  }
-  if (averaging) {
-    const Phase phase(sim.phases, PhaseName::average);
-    average_dilatation(sim.particles, sim.cells, transfer, *sim.grid, *sim.averages);
-  }
+    {
+      const Phase phase(sim.phases, PhaseName::particles_to_grid);
+      particles_to_grid(sim.particles, cells, transfer, sim.step_data, grid);
+    }
+    const Phase phase(sim.phases, PhaseName::exchange);
+    grid.exchange();
+  });
+  update_grids(dt, sim);
   StressReport report;
-  for_each_chunk(sim, [&](RowRange rows) { update_particles(rows, dt, sim, report); });
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    if (averaging) {
+      const Phase phase(sim.phases, PhaseName::average);
+      average_dilatation(sim.particles, cells, transfer, grid, *averages);
+    }
+    for_each_chunk(transfer, cells, grid, [&](RowRange rows) {
+      update_particles(cells, rows, grid, averages, dt, sim, report);
+    });
+  });
   move_sleeping(dt, sim);
   // Those asleep are still in the state that the first limit comes from.
   if (sleeping_particles(sim) > 0)

@@ -329,9 +329,9 @@ inline Int128 move_group(const GroupMoments<Dim>& m, double cell, const Motion<D
 
 // Flattened: a call per value would cost more than the arithmetic.
 template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
-[[gnu::flatten]] void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells, RowRange rows,
-           const Motion<Dim>& motion, Particles<Dim>& particles, StepData<Dim>& step,
-           Int128& filter_heat) {
+[[gnu::flatten]] void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
+                            RowRange rows, const Motion<Dim>& motion, Particles<Dim>& particles,
+                            StepData<Dim>& step, Int128& filter_heat) {
   constexpr bool affine = Velocity == VelocityTransfer::apic;
   const GridShape& shape = grid.shape();
   const double cell = shape.cell;

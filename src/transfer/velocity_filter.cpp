@@ -1,6 +1,7 @@
 #include "poreshock/transfer/velocity_filter.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "poreshock/transfer/blocks.hpp"
 
@@ -96,8 +97,16 @@ template <int Dim>
 void filter_velocity(const CellOrder& cells, const Transfer& transfer, double inverse_quantum,
                      SlabGrid& grid, Particles<Dim>& particles, StepData<Dim>& step,
                      Int128& filter_heat) {
-  for (int a = 0; a < Dim; ++a) step.residual[a] = particles.velocity[a];
-  step.filter_heat.assign(particles.size(), 0.0);
+  const RowRange rows = awake_rows(cells, grid);
+  const std::span places(
+      cells.order.data() + first_place(cells, grid, rows.first),
+      first_place(cells, grid, rows.last) - first_place(cells, grid, rows.first));
+  for (int a = 0; a < Dim; ++a) {
+    step.residual[a].resize(particles.size());
+    for (const std::uint32_t p : places) step.residual[a][p] = particles.velocity[a][p];
+  }
+  step.filter_heat.resize(particles.size());
+  for (const std::uint32_t p : places) step.filter_heat[p] = 0.0;
   with_shape(transfer, [&](const auto& spline) {
     for (int applied = 0; applied < transfer.order; ++applied) {
       scatter_residual<Dim>(spline, particles, cells, step, grid);
@@ -106,10 +115,7 @@ void filter_velocity(const CellOrder& cells, const Transfer& transfer, double in
       subtract_average<Dim>(spline, particles, cells, transfer.order, applied, grid, step);
     }
   });
-  const RowRange rows = awake_rows(cells, grid);
-  const std::uint32_t end = first_place(cells, grid, rows.last);
-  for (std::uint32_t k = first_place(cells, grid, rows.first); k < end; ++k) {
-    const std::uint32_t p = cells.order[k];
+  for (const std::uint32_t p : places) {
     for (int a = 0; a < Dim; ++a) particles.velocity[a][p] -= step.residual[a][p];
     particles.internal_energy[p] += step.filter_heat[p];
     filter_heat += quantise(particles.mass[p] * step.filter_heat[p], inverse_quantum);

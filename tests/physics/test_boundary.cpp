@@ -77,6 +77,37 @@ TEST(Wall, PushesDownAtTheTop) {
   }
 }
 
+// Friction takes mu times the push from what slides, at most all of it; its heat stands by itself.
+TEST(Wall, RubsLikeCoulomb) {
+  for (const double slip : {500.0, 30.0}) {
+    const double mass = 2e-6, push = 200.0, friction = 0.4;
+    const auto motion = [&](const NodeIndex<2>& i) {
+      Lanes node{};
+      node[0] = node[2] = slip;
+      node[1] = -push;
+      node[5] = i[1] == 1 ? mass : 0.0;
+      return node;
+    };
+    const auto grid = grid_of<2>({5, 9}, motion);
+    NodeLedger ledger = fine_ledger();
+    Boundary boundary = sides(SideKind::wall, SideKind::free);
+    boundary.low.friction = friction;
+    apply_boundaries<2>(boundary, {0.0, 0.0}, *grid, ledger);
+    const double end = std::max(slip - friction * push, 0.0);
+    double nodes = 0.0;
+    for_each_node<2>(*grid, [&](const NodeIndex<2>& i, const Lanes& node) {
+      if (i[1] != 1) return;
+      EXPECT_NEAR(node[0], end, 1e-12);
+      EXPECT_EQ(node[1], 0.0);
+      ++nodes;
+    });
+    EXPECT_NEAR(momentum(ledger.wall_impulse[0], ledger), nodes * mass * (end - slip),
+                1e-13 * nodes * mass * slip);
+    const double heat = nodes * mass * (slip - end) * 0.5 * (slip + end);
+    EXPECT_NEAR(energy(ledger.friction_heat, ledger), heat, 1e-12 * heat);
+  }
+}
+
 TEST(SymmetryPlane, HoldsBothWays) {
   for (const double v : {300.0, -300.0}) {
     const auto motion = [&](const NodeIndex<2>& i) {

@@ -185,25 +185,24 @@ TEST(Fill, TheLastBodyOwnsASiteAndVoidsTakeAll) {
   Body lower;
   lower.region = box({2.0, 2.0, 0.0}, {6.0, 8.0, 0.0});
   lower.material = 1;
-  lower.grain = 3;
+  lower.grain = 3;  // one grain of two bodies: others may not overlap
   Body upper;
   upper.region = box({4.0, 6.0, 0.0}, {8.0, 9.0, 0.0});
-  upper.grain = 4;
+  upper.grain = 3;
   scene.bodies = {lower, upper};
   scene.voids = {box({5.0, 3.0, 0.0}, {7.0, 7.0, 0.0})};
   SampleReport report;
   const Particles<2> particles = filled<2>(scene, {0, lattice_layers(scene)}, report);
-  std::map<int, int> count;
+  std::map<std::pair<int, int>, int> count;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    ++count[particles.grain[p]];
-    EXPECT_EQ(particles.density[p], particles.grain[p] == 3 ? 8900.0 : 2700.0);
-    EXPECT_EQ(particles.material[p], particles.grain[p] == 3 ? 1 : 0);
+    ++count[{particles.grain[p], particles.material[p]}];
+    EXPECT_EQ(particles.density[p], particles.material[p] == 1 ? 8900.0 : 2700.0);
   }
   // In unit squares (four sites each): sample 40 - 8 (lower) - 1 (void); lower 24 - 4 (upper) - 3;
   // upper 12 - 2.
-  EXPECT_EQ(count[0], 4 * 31);
-  EXPECT_EQ(count[3], 4 * 17);
-  EXPECT_EQ(count[4], 4 * 10);
+  const std::map<std::pair<int, int>, int> expected = {
+      {{0, 0}, 4 * 31}, {{3, 1}, 4 * 17}, {{3, 0}, 4 * 10}};
+  EXPECT_EQ(count, expected);
   EXPECT_EQ(report.lattice_sites, 4 * 40);
   EXPECT_EQ(report.block_particles, 4 * (31 + 8 - 1));
   EXPECT_EQ(report.particles, 4 * 58);

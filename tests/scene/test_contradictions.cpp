@@ -87,8 +87,9 @@ TEST(Contradictions, Sample) {
       "--set sample.particles_per_cell=9: sample.particles_per_cell: found 9, allowed a whole "
       "number from 1 to 8");
   EXPECT_EQ(override_problems("sample.kind=none"),
-            "s.toml:14:1: sample: found no material in the domain, allowed a [sample] with kind = "
-            "\"solid\" or \"random_voids\", or at least one [[body]]");
+            "s.toml:14:1: sample: found no material in the domain, allowed a [sample] with a kind "
+            "other than \"none\", or "
+            "at least one [[body]]");
 }
 
 TEST(Contradictions, MaterialNamesAreUnique) {

@@ -14,7 +14,7 @@ namespace {
 const std::string top_keys =
     "title, thermal, domain, boundary, material, sample, body, void, loading, body_force, "
     "transfer, "
-    "viscosity, conduction, time, output, morphology, profile, checkpoint";
+    "viscosity, conduction, contact, time, output, morphology, profile, checkpoint";
 
 TEST(Messages, GoodSceneHasNone) {
   EXPECT_EQ(problems(small_scene()), "");
@@ -97,8 +97,9 @@ TEST(Messages, MissingKeys) {
             "s.toml:1:1: domain.cell: missing, give a number > 0 (m)\n"
             "s.toml:1:1: time.end: missing, give a number > 0 (s)\n"
             "s.toml:1:1: material: missing, give at least one table [[material]]\n"
-            "s.toml:1:1: sample: found no material in the domain, allowed a [sample] with kind = "
-            "\"solid\" or \"random_voids\", or at least one [[body]]");
+            "s.toml:1:1: sample: found no material in the domain, allowed a [sample] with a kind "
+            "other than \"none\", or "
+            "at least one [[body]]");
 }
 
 TEST(Messages, SeveralProblemsInTheOrderOfTheFile) {

@@ -188,6 +188,32 @@ TEST(SameBits, RestartIn3D) {
             checksum_after<3>(scene, 1, 40));
 }
 
+// Grains lie across slabs, meet at walls and at periodic sides, and are coloured anew many times.
+TEST(SameBits, GrainsOnAllRanks) {
+  expect_same_on_all_ranks<2>(scene_of(grains_text()), 120);
+  expect_same_on_all_ranks<2>(
+      scene_of(grains_text(),
+               {"transfer.velocity=fmpm", "transfer.averaging=0.0", "transfer.shape=quadratic",
+                "boundary.low={kind='wall', friction=0.5}"}),
+      80);
+}
+
+TEST(SameBits, GrainsWithRestartAndRebalance) {
+  const Scene scene = scene_of(grains_text());
+  const int all = size(MPI_COMM_WORLD);
+  const std::uint64_t straight = checksum_after<2>(scene, 1, 120);
+  EXPECT_EQ(checksum_after<2>(scene, all, 120, 7), straight);
+  EXPECT_EQ(checksum_with_restart<2>(scene, all, 1, 80, 120), straight);
+  EXPECT_EQ(checksum_with_restart<2>(scene, 1, all, 81, 120), straight);
+}
+
+TEST(SameBits, BallsIn3D) {
+  const Scene scene =
+      scene_of(porous_3d_text(), {"sample.kind=packed_grains", "sample.porosity=0.5",
+                                  "sample.grain_radius=25e-6", "contact.friction=0.3"});
+  expect_same_on_all_ranks<3>(scene, 40);
+}
+
 TEST(SameBits, LedgerAndHistoryRow) {
   // The exact sums behind a history row must not depend on the ranks either.
   const Scene scene = scene_of(porous_text());

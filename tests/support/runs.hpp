@@ -50,6 +50,33 @@ end = 1e-6
          more;
 }
 
+/// Bed of 14 grains of 30 um radius on 20 x 34 cells that hits a wall at 1100 m/s.
+inline std::string grains_text(const std::string& more = "") {
+  return std::string(R"(
+title = "bed of grains"
+[domain]
+size = [0.2e-3, 0.34e-3]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+high = "free"
+[sample]
+kind = "packed_grains"
+height = 0.3e-3
+porosity = 0.3
+grain_radius = 30e-6
+grain_spread = 0.2
+[loading]
+velocity = 1100
+[contact]
+friction = 0.3
+[time]
+end = 1e-6
+)") + aluminium_text +
+         more;
+}
+
 inline Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_scene(text, "test", overrides);
 }

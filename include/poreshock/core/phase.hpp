@@ -18,6 +18,7 @@ enum class PhaseName {
   exchange,
   average,
   grid_update,
+  contact,
   grid_to_particles,
   remap,
   conduction,

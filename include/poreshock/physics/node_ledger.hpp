@@ -13,7 +13,9 @@ struct NodeLedger {
   double inverse_momentum_quantum = 1.0;
   Int128 filter_heat = 0;
   Int128 wall_heat = 0;
-  Int128 wall_work = 0;  ///< work done by moving walls on the material
+  Int128 contact_heat = 0;   ///< of the normal impulses between grains
+  Int128 friction_heat = 0;  ///< of the tangential impulses between grains and at walls
+  Int128 wall_work = 0;      ///< work done by moving walls on the material
   Int128 body_work = 0;
   std::array<Int128, 3> body_impulse{};
   std::array<Int128, 3> wall_impulse{};  ///< given to the material by walls and symmetry planes

@@ -19,19 +19,29 @@ struct Void {
   double radius = 0.0;  ///< m
 };
 
-/// What a generated sample achieved. The voids and what follows from them alone are the same on
-/// every rank; counts are those of the lattice range that was filled, until total() has summed
-/// them.
+/// A generated grain.
+struct Grain {
+  Triple center{};       ///< m; packed and Voronoi grains only
+  double radius = 0.0;   ///< m; of a packed grain, or the weight of a Voronoi cell
+  double measure = 0.0;  ///< m^2 in 2-D, m^3 in 3-D
+  int material = 0;      ///< index into Scene::materials
+};
+
+/// What a generated sample achieved. The voids and grains and what follows from them alone are the
+/// same on every rank; counts are those of the lattice range that was filled, until total() has
+/// summed them.
 struct SampleReport {
   std::vector<Void> voids;
+  std::vector<Grain> grains;             ///< grain i has the number first_grain_number(scene) + i
   double geometric_void_fraction = 0.0;  ///< of the sample block: see void_fraction
   double particle_void_fraction = 0.0;   ///< share of the block's lattice sites without a particle
-  double least_gap = 0.0;                ///< m, least surface distance between two voids (images
-                                         ///< included); negative: overlap; infinite: no pair
+  double least_gap = 0.0;                ///< m, least surface distance between two voids or grains
+                                         ///< (images included); negative: overlap; infinite: no
+                                         ///< pair
   std::int64_t lattice_sites = 0;        ///< in the sample block
   std::int64_t block_particles = 0;      ///< particles on sites of the sample block
   std::int64_t particles = 0;            ///< in all, bodies included
-  std::int64_t islands = 0;              ///< floating pieces removed (overlapping voids)
+  std::int64_t islands = 0;              ///< floating pieces (overlapping voids)
   std::int64_t island_particles = 0;     ///< particles removed with them
 };
 
@@ -51,6 +61,9 @@ std::vector<Void> place_voids(const Scene& scene);
 /// do not overlap; overlapping balls to 1e-5. Not collective.
 double void_fraction(const std::vector<Void>& voids, const Scene& scene);
 
+/// Number of the first generated grain: one more than the largest of the bodies.
+int first_grain_number(const Scene& scene);
+
 /// A row (2-D) or plane (3-D) range of lattice sites along the shock axis, [first, last).
 struct LatticeRange {
   std::int64_t first = 0;
@@ -63,12 +76,14 @@ std::int64_t lattice_layers(const Scene& scene);
 /// Replaces `particles` by those whose lattice layer lies in `range`, in lattice order. Sites lie
 /// at
 /// ((i + 0.5) cell / particles_per_cell); a site belongs to the last body that contains it, else to
-/// the sample block unless a generated void contains it; explicit voids empty it. Sets id (lattice
+/// the generated grain, or the sample block unless a generated void contains it; explicit voids
+/// empty it. Sets id (lattice
 /// index, x fastest), position, velocity (loading, frame, body, spin), mass, density rho0, grain
 /// and material, the APIC gradient of a body's spin, and all else zero. `report` counts this range:
 /// see total(). Work grows with the sites of the range and the number of voids; only for
 /// overlapping voids, whose floating islands are removed, it grows with all sites of the sample.
-/// Not collective. Throws InputError as place_voids does.
+/// Not collective. Throws InputError as place_voids does, when grains cannot be made, and when two
+/// bodies of different grains overlap.
 template <int Dim>
 void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, SampleReport& report);
 

@@ -16,7 +16,9 @@ namespace poreshock {
 using Triple = std::array<double, 3>;
 
 enum class SideKind { periodic, wall, symmetry, free };
-enum class SampleKind { none, solid, random_voids };
+enum class SampleKind { none, solid, random_voids, packed_grains, voronoi_grains, image };
+enum class Islands { removed, grains };  ///< what becomes of floating pieces
+enum class GapTest { volume, none };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
 enum class ShapeFunction { linear, gimp, quadratic, cubic };
 enum class VelocityTransfer { pic, flip, apic, fmpm };
@@ -40,6 +42,7 @@ struct Domain {
 struct Side {
   SideKind kind = SideKind::free;
   double velocity = 0.0;  ///< m/s along the shock axis, walls only
+  double friction = 0.0;  ///< coefficient of Coulomb friction, walls only
   bool operator==(const Side&) const = default;
 };
 
@@ -71,6 +74,13 @@ struct Body {
   bool operator==(const Body&) const = default;
 };
 
+/// A material of generated grains.
+struct MixturePart {
+  int material = 0;       ///< index into Scene::materials
+  double fraction = 0.0;  ///< share of the volume of all grains; the shares of a mixture sum to 1
+  bool operator==(const MixturePart&) const = default;
+};
+
 /// A generated block of material from the low wall up to `height`, over the whole width.
 struct Sample {
   SampleKind kind = SampleKind::none;
@@ -83,6 +93,14 @@ struct Sample {
   double ligament = 0.0;     ///< m, least solid between two voids (not with overlap)
   double keep_out = 0.0;     ///< m, least solid between a void and the wall or the top
   bool overlap = false;
+  Islands islands = Islands::removed;  ///< floating pieces between overlapping voids
+  double grain_radius = 0.0;           ///< m, median radius; of Voronoi grains: of the equal disc
+  double grain_spread = 0.0;           ///< standard deviation of ln(radius); 0 = equal
+  double grain_gap = 0.0;              ///< m, least gap between two packed grains
+  std::string image;                   ///< path of a PNG or PGM file
+  double pixel = 0.0;                  ///< m, side of a pixel of the image
+  std::optional<double> threshold;     ///< grey value from which on a pixel is solid; else labels
+  std::vector<MixturePart> mixture;    ///< materials of the grains; empty: `material`
   std::uint64_t seed = 1;
   int particles_per_cell = 2;  ///< per direction; also used for bodies
   bool operator==(const Sample&) const = default;
@@ -114,6 +132,13 @@ struct Viscosity {
 struct Conduction {
   bool on = false;  ///< heat flows between particles
   bool operator==(const Conduction&) const = default;
+};
+
+/// Contact between grains.
+struct Contact {
+  double friction = 0.0;          ///< coefficient of Coulomb friction
+  GapTest gap = GapTest::volume;  ///< contact only where the grains fill the space of a node
+  bool operator==(const Contact&) const = default;
 };
 
 struct TimeControl {
@@ -180,6 +205,7 @@ struct Scene {
   Transfer transfer;
   Viscosity viscosity;
   Conduction conduction;
+  Contact contact;
   TimeControl time;
   Output output;
   Morphology morphology;
@@ -193,6 +219,12 @@ inline bool conducts_heat(const Scene& scene) {
   return scene.conduction.on &&
          std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const MaterialParameters& m) { return m.conductivity > 0.0; });
+}
+
+/// True for samples that are made of grains.
+inline bool makes_grains(SampleKind kind) {
+  return kind == SampleKind::packed_grains || kind == SampleKind::voronoi_grains ||
+         kind == SampleKind::image;
 }
 
 /// True when some material has a spall strength.

@@ -13,6 +13,7 @@
 #include "poreshock/physics/heat.hpp"
 #include "poreshock/physics/stress.hpp"
 #include "poreshock/sample/fill.hpp"
+#include "poreshock/solver/grain_fields.hpp"
 #include "poreshock/solver/ledger.hpp"
 #include "poreshock/solver/time_step.hpp"
 #include "poreshock/transfer/step_data.hpp"
@@ -37,6 +38,7 @@ struct Simulation {
   StepData<Dim> step_data;
   std::unique_ptr<SlabGrid> grid;
   std::unique_ptr<SlabGrid> averages;  ///< only with averaged dilatation
+  GrainFields grain_fields;            ///< only used where grains of two colours exist
   std::unique_ptr<SlabGrid> heat;      ///< only with heat conduction
   HeatFlow<Dim> heat_flow;             ///< empty without heat conduction
   double conduction_limit = 0.0;       ///< s, infinite without heat conduction

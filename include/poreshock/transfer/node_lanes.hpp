@@ -26,6 +26,21 @@ struct MotionLane {
   static constexpr int dilatation_mid = 2 * Dim + 3;
 };
 
+/// Surface of the grain of one velocity field at a node, for contact.
+template <int Dim>
+struct SurfaceLane {
+  static constexpr int volume = 0;       ///< m^Dim, sum of V N
+  static constexpr int gradient = 1;     ///< m^(Dim-1), sum of V dN/dx_p; Dim numbers
+  static constexpr int place = 1 + Dim;  ///< m^(Dim+1), sum of V N (x_p - x_i); Dim numbers
+};
+
+/// What contact did to the grain of one velocity field at a shared node.
+template <int Dim>
+struct CollisionLane {
+  static constexpr int change = 0;  ///< m/s, of the end velocity; Dim numbers
+  static constexpr int end = Dim;   ///< m/s, end velocity after it; Dim numbers
+};
+
 /// Nodal averages (averaged dilatation), of the pressure or of the dilatation.
 struct AverageLane {
   static constexpr int volume = 0;

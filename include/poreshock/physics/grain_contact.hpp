@@ -1,0 +1,48 @@
+#pragma once
+// Contact between the velocity fields of a grid, node by node.
+
+#include <cstdint>
+#include <vector>
+
+#include "poreshock/grid/slab_grid.hpp"
+#include "poreshock/physics/contact.hpp"
+#include "poreshock/physics/node_ledger.hpp"
+
+namespace poreshock {
+
+/// The nodes of one velocity field: MotionLane, and SurfaceLane where there is contact.
+struct ContactField {
+  SlabGrid* motion = nullptr;
+  SlabGrid* surface = nullptr;
+};
+
+/// What contact did in one step, over the owned nodes of this rank.
+struct ContactSummary {
+  std::int64_t nodes = 0;          ///< at which grains pushed each other
+  std::int64_t crowded_nodes = 0;  ///< at which more than two grains met
+  double least_gap = 0.0;          ///< m, smallest gap of all nodes that two grains share
+  double penetration = 0.0;        ///< m, largest
+  double residual = 0.0;           ///< largest share of the impulses of a node that did not cancel
+};
+
+/// True at the nodes in [first_row, node_end) where two fields or more have mass; row after row.
+/// Not collective.
+std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass_lane);
+
+/// Lets the grains of all shared nodes collide: end velocities and the heat lane change, and
+/// SurfaceLane gives way to CollisionLane there. Before: motion and surfaces complete, periodic
+/// images not yet filled. The same happens on every rank that holds a node. Fields are taken in the
+/// order of their masses and velocities, so that the numbers of the fields do not matter.
+/// settings.capacity is set here. Not collective.
+template <int Dim>
+ContactSummary collide_grains(const std::vector<ContactField>& fields,
+                              const std::vector<bool>& shared, const Scene& scene,
+                              ContactSettings settings, const FaceTable& faces, NodeLedger& ledger);
+
+/// After the boundaries: where they changed the velocities once more, contact impulses did other
+/// work than collide_grains knew; the difference goes to the heat. Not collective.
+template <int Dim>
+void settle_contact_heat(const std::vector<ContactField>& fields, const std::vector<bool>& shared,
+                         NodeLedger& ledger);
+
+}  // namespace poreshock

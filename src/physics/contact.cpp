@@ -1,0 +1,252 @@
+#include "poreshock/physics/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "poreshock/transfer/shape.hpp"
+
+namespace poreshock {
+
+namespace {
+
+constexpr int sweeps = 8;
+constexpr int most_pairs = most_grains_at_node * (most_grains_at_node - 1) / 2;
+
+template <int Dim>
+double dot(const Vector<Dim>& a, const Vector<Dim>& b) {
+  double sum = a[0] * b[0];
+  for (int k = 1; k < Dim; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+/// Two grains of a node and what they give each other.
+template <int Dim>
+struct Pair {
+  int a = 0, b = 0;
+  Vector<Dim> normal = Vector<Dim>::Zero();  ///< from a to b
+  double gap = 0.0;                          ///< m, that may still close
+  bool rubs = true;                          ///< false where the normal is only a guess
+  double push = 0.0;                         ///< kg m/s along the normal, on b
+  Vector<Dim> rub = Vector<Dim>::Zero();     ///< kg m/s across it, on b
+};
+
+/// Common normal of two grains: of their volume gradients, else from place to place. False when
+/// there is none.
+template <int Dim>
+bool set_normal(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double cell, Pair<Dim>& pair) {
+  constexpr double flat = 1e-6;
+  const double face = flat * (a.volume + b.volume) / cell;
+  const double floor = face * (face * face);
+  // The steeper gradient belongs to the flatter face: at a corner it tells where the face is.
+  Vector<Dim> n =
+      a.gradient * dot<Dim>(a.gradient, a.gradient) - b.gradient * dot<Dim>(b.gradient, b.gradient);
+  double length = std::sqrt(dot<Dim>(n, n));
+  pair.rubs = length > floor;
+  if (!pair.rubs) {
+    n = b.place - a.place;
+    length = std::sqrt(dot<Dim>(n, n));
+    if (!(length > flat * cell)) return false;
+  }
+  pair.normal = n / length;
+  return true;
+}
+
+template <int Dim>
+void add_impulse(const Vector<Dim>& impulse, const Pair<Dim>& pair,
+                 std::span<NodeGrain<Dim>> grains) {
+  grains[pair.a].end -= impulse / grains[pair.a].mass;
+  grains[pair.b].end += impulse / grains[pair.b].mass;
+}
+
+/// One Gauss-Seidel step: the impulse of this pair given those of all others.
+template <int Dim>
+void relax_pair(double friction, double closing_time, Pair<Dim>& pair,
+                std::span<NodeGrain<Dim>> grains) {
+  const double ma = grains[pair.a].mass, mb = grains[pair.b].mass;
+  const double reduced = ma * (mb / (ma + mb));
+  Vector<Dim> relative = grains[pair.b].end - grains[pair.a].end;
+  const double missing = -(dot<Dim>(relative, pair.normal) + pair.gap / closing_time);
+  const double push = std::max(pair.push + reduced * missing, 0.0);
+  add_impulse<Dim>(pair.normal * (push - pair.push), pair, grains);
+  pair.push = push;
+  if (!(friction > 0.0) || !pair.rubs) return;
+  relative = grains[pair.b].end - grains[pair.a].end;
+  const Vector<Dim> slip = relative - pair.normal * dot<Dim>(relative, pair.normal);
+  Vector<Dim> rub = pair.rub - slip * reduced;
+  const double size = std::sqrt(dot<Dim>(rub, rub));
+  const double most = friction * push;
+  if (size > most) rub *= most / size;
+  add_impulse<Dim>(rub - pair.rub, pair, grains);
+  pair.rub = rub;
+}
+
+/// Kinetic energy that impulses from `before` to the velocities now took: J . (before + now) / 2.
+template <int Dim>
+double energy_taken(std::span<const Vector<Dim>> before, std::span<const NodeGrain<Dim>> grains) {
+  double taken = 0.0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vector<Dim> change = before[g] - grains[g].end;
+    const Vector<Dim> middle = (before[g] + grains[g].end) * 0.5;
+    taken += grains[g].mass * dot<Dim>(change, middle);
+  }
+  return taken;
+}
+
+/// Friction bounds that shrank during the sweeps may leave impulses that add energy. Along the ray
+/// of all impulses together energy is a parabola: its lowest point keeps every bound.
+template <int Dim>
+void keep_energy_down(std::span<const Vector<Dim>> before, std::span<Pair<Dim>> pairs,
+                      std::span<NodeGrain<Dim>> grains) {
+  double slope = 0.0, curvature = 0.0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vector<Dim> change = grains[g].end - before[g];
+    slope += grains[g].mass * dot<Dim>(before[g], change);
+    curvature += grains[g].mass * dot<Dim>(change, change);
+  }
+  if (slope + 0.5 * curvature <= 0.0 || !(curvature > 0.0)) return;
+  const double share = std::clamp(-slope / curvature, 0.0, 1.0);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    grains[g].end = before[g] + (grains[g].end - before[g]) * share;
+  }
+  for (Pair<Dim>& pair : pairs) {
+    pair.push *= share;
+    pair.rub *= share;
+  }
+}
+
+template <int Dim>
+void share_heat(std::span<const Pair<Dim>> pairs, std::span<NodeGrain<Dim>> grains,
+                ContactReport& report) {
+  for (const Pair<Dim>& pair : pairs) {
+    NodeGrain<Dim>& a = grains[pair.a];
+    NodeGrain<Dim>& b = grains[pair.b];
+    const Vector<Dim> middle = ((b.start - a.start) + (b.end - a.end)) * 0.5;
+    const double impact = -pair.push * dot<Dim>(pair.normal, middle);
+    const double rubbing = -dot<Dim>(pair.rub, middle);
+    a.heat += 0.5 * (impact + rubbing);
+    b.heat += 0.5 * (impact + rubbing);
+    report.impact_heat += impact;
+    report.friction_heat += rubbing;
+    if (pair.push > 0.0) ++report.pairs;
+  }
+}
+
+/// All pairs of a node that have a normal, with their gaps.
+template <int Dim>
+int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
+               const FaceTable& faces, std::array<Pair<Dim>, most_pairs>& pairs,
+               ContactReport& report) {
+  double filled = 0.0;
+  for (const NodeGrain<Dim>& g : grains) filled += g.volume;
+  const double excess = filled / settings.capacity - 1.0;
+  if (excess > 0.0) report.penetration = excess * settings.cell / faces.density(0.5);
+  report.least_gap = std::numeric_limits<double>::infinity();
+  int count = 0;
+  for (int a = 0; a < static_cast<int>(grains.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(grains.size()); ++b) {
+      Pair<Dim>& pair = pairs[static_cast<std::size_t>(count)];
+      pair = {.a = a, .b = b};
+      if (!set_normal<Dim>(grains[a], grains[b], settings.cell, pair)) continue;
+      const double gap = pair_gap<Dim>(grains[a], grains[b], filled, settings, faces);
+      report.least_gap = std::min(report.least_gap, gap);
+      if (settings.gap_test) pair.gap = gap;
+      ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+FaceTable::FaceTable(const Transfer& transfer) {
+  // The shape function on a fine grid, and its integral by Simpson's rule.
+  constexpr int steps = 2048;
+  std::array<double, steps + 1> weight{}, filled{};
+  double half = 0.0;
+  with_shape(transfer, [&]<class Shape>(const Shape& shape) {
+    half = 0.5 * Shape::width;
+    const auto value = [&](double x) {
+      const double s = 10.0 + x;  // of the particle; node 11 lies at s = 10
+      const int base = Shape::base(s);
+      const int k = 11 - base;
+      return k >= 0 && k < Shape::width ? axis_weights(shape, s, base).value[k] : 0.0;
+    };
+    const double h = 2.0 * half / steps;
+    for (int i = 0; i <= steps; ++i) {
+      weight[i] = value(-half + h * i);
+      if (i == 0) continue;
+      const double middle = value(-half + h * (i - 0.5));
+      filled[i] = filled[i - 1] + h / 6.0 * (weight[i - 1] + 4.0 * middle + weight[i]);
+    }
+  });
+  // In the fourth root of the share the tails of all shape functions are smooth.
+  int i = 1;
+  for (int k = 0; k <= intervals; ++k) {
+    const double root = greatest_root * k / intervals;
+    const double share = std::min((root * root) * (root * root), 0.5) * filled[steps];
+    while (i < steps && filled[i] < share) ++i;
+    const double width = filled[i] - filled[i - 1];
+    const double t = width > 0.0 ? std::clamp((share - filled[i - 1]) / width, 0.0, 1.0) : 0.0;
+    density_[k] = weight[i - 1] + t * (weight[i] - weight[i - 1]);
+  }
+}
+
+double FaceTable::density(double share) const {
+  const double smaller = std::clamp(std::min(share, 1.0 - share), 0.0, 0.5);
+  const double x = std::sqrt(std::sqrt(smaller)) * (intervals / greatest_root);
+  const int k = std::min(static_cast<int>(x), intervals - 1);
+  return density_[k] + (x - k) * (density_[k + 1] - density_[k]);
+}
+
+template <int Dim>
+double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
+                const ContactSettings& settings, const FaceTable& faces) {
+  const double both = a.volume + b.volume;
+  if (!(both > 0.0)) return std::numeric_limits<double>::infinity();
+  const Vector<Dim> difference = (a.gradient - b.gradient) * 0.5;
+  const double area = std::sqrt(dot<Dim>(difference, difference));
+  // Touching flat faces that fill only part of the node, at an edge or beside other grains, still
+  // have the area that belongs to the ratio of their volumes.
+  const double density = faces.density(a.volume / both);
+  const double missing_in_node = settings.capacity - filled;
+  const double missing_in_pair = area * settings.cell - both * density;
+  const double missing = std::min(missing_in_node * density, missing_in_pair);
+  if (!(missing > touching_gap * settings.cell * area * density)) return 0.0;
+  return area > 0.0 && density > 0.0 ? missing / (area * density) - touching_gap * settings.cell
+                                     : std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
+                              const FaceTable& faces) {
+  ContactReport report;
+  std::array<Pair<Dim>, most_pairs> storage;
+  const int count = find_pairs<Dim>(grains, settings, faces, storage, report);
+  const std::span<Pair<Dim>> pairs(storage.data(), static_cast<std::size_t>(count));
+  std::array<Vector<Dim>, most_grains_at_node> before;
+  for (std::size_t g = 0; g < grains.size(); ++g) before[g] = grains[g].end;
+  const std::span<const Vector<Dim>> start(before.data(), grains.size());
+  // A single pair is solved by its first step.
+  for (int sweep = 0; sweep < (count == 1 ? 1 : sweeps); ++sweep) {
+    for (int k = 0; k < count; ++k) {
+      Pair<Dim>& pair = pairs[sweep % 2 == 0 ? k : count - 1 - k];
+      relax_pair<Dim>(settings.friction, settings.closing_time, pair, grains);
+    }
+  }
+  if (count > 1) keep_energy_down<Dim>(start, pairs, grains);
+  report.loss = energy_taken<Dim>(start, grains);
+  share_heat<Dim>(pairs, grains, report);
+  return report;
+}
+
+template double pair_gap<2>(const NodeGrain<2>&, const NodeGrain<2>&, double,
+                            const ContactSettings&, const FaceTable&);
+template double pair_gap<3>(const NodeGrain<3>&, const NodeGrain<3>&, double,
+                            const ContactSettings&, const FaceTable&);
+template ContactReport resolve_contact<2>(std::span<NodeGrain<2>>, const ContactSettings&,
+                                          const FaceTable&);
+template ContactReport resolve_contact<3>(std::span<NodeGrain<3>>, const ContactSettings&,
+                                          const FaceTable&);
+
+}  // namespace poreshock

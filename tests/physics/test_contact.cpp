@@ -1,0 +1,279 @@
+// Contact at one node: impulses, friction, gaps and their energy against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "poreshock/physics/contact.hpp"
+#include "poreshock/transfer/shape.hpp"
+#include "support/random_numbers.hpp"
+
+namespace {
+
+using namespace poreshock;
+
+constexpr double cell = 1e-5;
+
+Transfer transfer_of(ShapeFunction shape) {
+  Transfer transfer;
+  transfer.shape = shape;
+  transfer.half_length = 0.25;
+  return transfer;
+}
+
+const FaceTable& cubic_faces() {
+  static const FaceTable faces(transfer_of(ShapeFunction::cubic));
+  return faces;
+}
+
+ContactSettings settings_of(double friction, int dimension = 2) {
+  return {.friction = friction,
+          .gap_test = true,
+          .cell = cell,
+          .closing_time = 1e-9,
+          .capacity = std::pow(cell, dimension)};
+}
+
+/// Two grains that fill the node, with their face across y: a below, b above.
+std::vector<NodeGrain<2>> touching(double ma, double mb, const Vector<2>& va, const Vector<2>& vb) {
+  const double face = 2.0 / 3.0 * cell;
+  NodeGrain<2> a{.mass = ma, .start = va, .end = va, .volume = 0.5 * cell * cell};
+  NodeGrain<2> b{.mass = mb, .start = vb, .end = vb, .volume = 0.5 * cell * cell};
+  a.gradient = {0.0, face};
+  b.gradient = {0.0, -face};
+  a.place = {0.0, -0.4 * cell};
+  b.place = {0.0, 0.4 * cell};
+  return {a, b};
+}
+
+template <int Dim>
+double kinetic(const std::vector<NodeGrain<Dim>>& grains) {
+  double sum = 0.0;
+  for (const auto& g : grains) sum += 0.5 * g.mass * g.end.squaredNorm();
+  return sum;
+}
+
+template <int Dim>
+Vector<Dim> momentum(const std::vector<NodeGrain<Dim>>& grains) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const auto& g : grains) sum += g.mass * g.end;
+  return sum;
+}
+
+TEST(Contact, WithoutFrictionTheNormalVelocitiesMeet) {
+  auto grains = touching(1e-6, 3e-6, {7.0, 100.0}, {-5.0, -300.0});
+  const ContactReport report = resolve_contact<2>(grains, settings_of(0.0), cubic_faces());
+  EXPECT_NEAR(grains[0].end[1], -200.0, 1e-12);
+  EXPECT_NEAR(grains[1].end[1], -200.0, 1e-12);
+  EXPECT_EQ(grains[0].end[0], 7.0);
+  EXPECT_EQ(grains[1].end[0], -5.0);
+  EXPECT_EQ(report.pairs, 1);
+  EXPECT_EQ(report.least_gap, 0.0);
+  EXPECT_NEAR(report.loss, 0.5 * 0.75e-6 * 400.0 * 400.0, 1e-15);
+  EXPECT_EQ(report.friction_heat, 0.0);
+}
+
+TEST(Contact, GrainsThatPartAreLeftAlone) {
+  auto grains = touching(1e-6, 3e-6, {7.0, -100.0}, {-5.0, -99.0});
+  const ContactReport report = resolve_contact<2>(grains, settings_of(0.5), cubic_faces());
+  EXPECT_EQ(grains[0].end, Vector<2>(7.0, -100.0));
+  EXPECT_EQ(grains[1].end, Vector<2>(-5.0, -99.0));
+  EXPECT_EQ(report.pairs, 0);
+  EXPECT_EQ(report.loss, 0.0);
+  EXPECT_EQ(report.impact_heat, 0.0);
+}
+
+// Impulses after Bardenhagen et al. 2000: N = m_red v_n, slip while m_red v_t > mu N, else stick.
+TEST(Contact, FrictionIsCoulombs) {
+  const double reduced = 0.75e-6;
+  for (const double friction : {0.1, 0.5, 0.6, 2.0, 1e30}) {
+    auto grains = touching(1e-6, 3e-6, {120.0, 200.0}, {0.0, 0.0});
+    const ContactReport report = resolve_contact<2>(grains, settings_of(friction), cubic_faces());
+    const double push = reduced * 200.0, rub = std::min(friction * push, reduced * 120.0);
+    EXPECT_NEAR(grains[0].end[1], 200.0 - push / 1e-6, 1e-11);
+    EXPECT_NEAR(grains[0].end[0], 120.0 - rub / 1e-6, 1e-11);
+    EXPECT_NEAR(grains[1].end[0], rub / 3e-6, 1e-11);
+    if (friction >= 0.6) {
+      EXPECT_NEAR(grains[0].end[0], grains[1].end[0], 1e-11);
+    }
+    // Heat of each impulse: with the mean of start and end velocity.
+    const double slip = 120.0 - rub / reduced;
+    EXPECT_NEAR(report.friction_heat, rub * 0.5 * (120.0 + slip), 1e-12 * report.loss);
+    EXPECT_NEAR(report.impact_heat, push * 100.0, 1e-12 * report.loss);
+    EXPECT_NEAR(report.loss, report.friction_heat + report.impact_heat, 1e-12 * report.loss);
+    EXPECT_NEAR(grains[0].heat, 0.5 * report.loss, 1e-12 * report.loss);
+    EXPECT_EQ(grains[0].heat, grains[1].heat);
+  }
+}
+
+// Apart, grains may close their gap within the step and no more.
+TEST(Contact, AGapMayCloseButNotMore) {
+  for (const double approach : {500.0, 3000.0}) {
+    auto grains = touching(1e-6, 1e-6, {0.0, 0.5 * approach}, {0.0, -0.5 * approach});
+    for (auto& g : grains) g.volume *= 0.9;
+    const ContactSettings settings = settings_of(0.0);
+    // The face stands on the node: density 2/3 per cell of width.
+    const double gap = 0.1 * cell * 1.5 - touching_gap * cell;
+    const ContactReport report = resolve_contact<2>(grains, settings, cubic_faces());
+    EXPECT_NEAR(report.least_gap, gap, 1e-3 * gap);
+    const double end = grains[0].end[1] - grains[1].end[1];
+    EXPECT_NEAR(end, std::min(approach, report.least_gap / settings.closing_time), 1e-9);
+    EXPECT_GE(report.loss, 0.0);
+  }
+  auto grains = touching(1e-6, 1e-6, {0.0, 250.0}, {0.0, -250.0});
+  for (auto& g : grains) g.volume *= 0.9;
+  ContactSettings untested = settings_of(0.0);
+  untested.gap_test = false;
+  resolve_contact<2>(grains, untested, cubic_faces());
+  EXPECT_NEAR(grains[0].end[1], grains[1].end[1], 1e-12);
+}
+
+template <int Dim>
+std::vector<NodeGrain<Dim>> random_grains(reference::Random& random, int count) {
+  std::vector<NodeGrain<Dim>> grains(static_cast<std::size_t>(count));
+  const double full = std::pow(cell, Dim);
+  for (auto& g : grains) {
+    // Masses over six decades.
+    g.mass = 1e-6 * std::pow(10.0, -6.0 * random.uniform());
+    g.volume = full * random.uniform();
+    for (int a = 0; a < Dim; ++a) {
+      g.start[a] = 2000.0 * (random.uniform() - 0.5);
+      g.end[a] = 2000.0 * (random.uniform() - 0.5);
+      g.gradient[a] = full / cell * (random.uniform() - 0.5);
+      g.place[a] = cell * (random.uniform() - 0.5);
+    }
+  }
+  return grains;
+}
+
+template <int Dim>
+void collide_random_grains(double friction) {
+  reference::Random random{friction > 0.0 ? 11U : 5U};
+  for (int n = 0; n < 3000; ++n) {
+    const int count = 2 + n % 5;
+    std::vector<NodeGrain<Dim>> grains = random_grains<Dim>(random, count);
+    const std::vector<NodeGrain<Dim>> before = grains;
+    const ContactReport report =
+        resolve_contact<Dim>(grains, settings_of(friction, Dim), cubic_faces());
+    double scale = 0.0, heat = 0.0, expected = 0.0;
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      scale += grains[g].mass * before[g].end.norm();
+      heat += grains[g].heat;
+      const Vector<Dim> impulse = grains[g].mass * (grains[g].end - before[g].end);
+      expected -= impulse.dot(0.5 * (grains[g].start + grains[g].end));
+    }
+    ASSERT_LE((momentum(grains) - momentum(before)).norm(), 1e-13 * scale);
+    ASSERT_LE(kinetic(grains), kinetic(before) * (1.0 + 1e-13));
+    ASSERT_NEAR(report.loss, kinetic(before) - kinetic(grains), 1e-12 * kinetic(before));
+    ASSERT_NEAR(heat, report.impact_heat + report.friction_heat, 1e-12 * kinetic(before));
+    ASSERT_NEAR(heat, expected, 1e-9 * kinetic(before));
+  }
+}
+
+// Two to six grains with any normals: momentum stays, kinetic energy never grows, no heat is lost.
+TEST(Contact, ManyGrainsKeepMomentumAndLoseEnergy) {
+  for (const double friction : {0.0, 0.3, 5.0, 1e30}) {
+    collide_random_grains<2>(friction);
+    collide_random_grains<3>(friction);
+  }
+}
+
+// The corner of four: diagonal pairs push as well, and the cross at rest stays at rest.
+TEST(Contact, FourGrainsAtACorner) {
+  std::vector<NodeGrain<2>> grains(4);
+  for (int g = 0; g < 4; ++g) {
+    const Vector<2> outward(g % 2 == 0 ? -1.0 : 1.0, g < 2 ? -1.0 : 1.0);
+    grains[static_cast<std::size_t>(g)] = {.mass = 1e-6,
+                                           .start = -100.0 * outward,
+                                           .end = -100.0 * outward,
+                                           .volume = 0.25 * cell * cell,
+                                           .gradient = -outward * (cell / 3.0),
+                                           .place = outward * (0.4 * cell)};
+  }
+  const std::vector<NodeGrain<2>> before = grains;
+  const ContactReport report = resolve_contact<2>(grains, settings_of(0.2), cubic_faces());
+  EXPECT_LE(momentum(grains).norm(), 1e-13 * 4e-4);
+  for (const auto& g : grains) EXPECT_LE(g.end.norm(), 0.02 * 141.4);
+  EXPECT_NEAR(report.loss, kinetic(before), 1e-3 * kinetic(before));
+  auto resting = before;
+  for (auto& g : resting) g.start = g.end = {3.0, 4.0};
+  const ContactReport still = resolve_contact<2>(resting, settings_of(0.2), cubic_faces());
+  EXPECT_EQ(still.pairs, 0);
+  for (const auto& g : resting) EXPECT_EQ(g.end, Vector<2>(3.0, 4.0));
+}
+
+// One particle has no face: the line between the two takes its place, without friction.
+TEST(Contact, GrainsWithoutFacesPushAlongTheirDistance) {
+  auto grains = touching(1e-9, 1e-6, {30.0, 40.0}, {0.0, 0.0});
+  for (auto& g : grains) g.gradient.setZero();
+  const ContactReport report = resolve_contact<2>(grains, settings_of(0.5), cubic_faces());
+  EXPECT_EQ(report.pairs, 1);
+  EXPECT_EQ(grains[0].end[0], 30.0);
+  EXPECT_NEAR(grains[0].end[1], grains[1].end[1], 1e-12);
+  for (auto& g : grains) g.place.setZero();
+  auto same = grains;
+  EXPECT_EQ(resolve_contact<2>(grains, settings_of(0.5), cubic_faces()).pairs, 0);
+  EXPECT_EQ(grains[0].end, same[0].end);
+}
+
+TEST(FaceTable, HoldsTheShapeFunctionByItsIntegral) {
+  EXPECT_NEAR(cubic_faces().density(0.5), 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(FaceTable(transfer_of(ShapeFunction::quadratic)).density(0.5), 0.75, 1e-9);
+  EXPECT_NEAR(FaceTable(transfer_of(ShapeFunction::linear)).density(0.5), 1.0, 1e-9);
+  // GIMP: the hat averaged over half a cell, 1 - l/2 at its middle.
+  EXPECT_NEAR(FaceTable(transfer_of(ShapeFunction::gimp)).density(0.5), 0.875, 1e-9);
+  // Tail of the cubic spline: u^4/24 against u^3/6.
+  for (const double u : {0.1, 0.3, 0.6, 0.99}) {
+    EXPECT_NEAR(cubic_faces().density(std::pow(u, 4) / 24.0), u * u * u / 6.0, 2e-4 * u);
+    EXPECT_NEAR(cubic_faces().density(1.0 - std::pow(u, 4) / 24.0), u * u * u / 6.0, 2e-4 * u);
+  }
+  EXPECT_NEAR(cubic_faces().density(0.0), 0.0, 1e-12);
+}
+
+/// Volume and slope of a body at a node from particles that fill [low, high] of the normal and the
+/// share `side` of the other axis, two per cell, cubic.
+NodeGrain<2> slab(double low, double high, double side) {
+  NodeGrain<2> g{.mass = 1e-6};
+  const CubicSpline spline;
+  for (int k = 0; low + 0.5 * k < high - 1e-9; ++k) {
+    const double s = 10.0 + low + 0.25 + 0.5 * k;
+    const int index = 11 - CubicSpline::base(s);
+    if (index < 0 || index > 3) continue;
+    const auto w = axis_weights(spline, s, CubicSpline::base(s));
+    g.volume += 0.5 * w.value[index] * side * cell * cell;
+    // The slope is that of the node's weight against the particle's place.
+    g.gradient[1] += 0.5 * w.slope[index] * side * cell;
+  }
+  return g;
+}
+
+// Flat faces at any phase of the grid: touching faces touch, a gap of up to half a cell is found
+// within a fifth where the faces are near the node, and never taken for less than two thirds of
+// itself. At a free edge, which leaves half of the node empty, faces touch within a tenth of a
+// cell.
+TEST(PairGap, FlatFacesAtAnyPhase) {
+  for (const double side : {1.0, 0.5}) {
+    const bool edge = side < 1.0;
+    for (double phase = -1.0; phase <= 1.0; phase += 0.05) {
+      for (const double gap : {0.0, 0.1, 0.2, 0.5}) {
+        const auto a = slab(phase - 0.5 * gap - 6.0, phase - 0.5 * gap, side);
+        const auto b = slab(phase + 0.5 * gap, phase + 0.5 * gap + 6.0, side);
+        const double both = a.volume + b.volume;
+        const double found = pair_gap<2>(a, b, both, settings_of(0.0), cubic_faces()) / cell;
+        const double margin = touching_gap;
+        SCOPED_TRACE(::testing::Message()
+                     << "phase " << phase << " gap " << gap << " side " << side);
+        if (gap == 0.0) {
+          EXPECT_LE(found, edge ? 0.2 : 0.0);
+          continue;
+        }
+        EXPECT_GE(found + margin, gap * 2.0 / 3.0);
+        if (std::fabs(phase) < 0.5) {
+          EXPECT_NEAR(found + margin, gap, edge ? 0.1 + 1.5 * gap : 0.2 * gap);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,349 @@
+// Grains: packed, Voronoi, of images and of islands; their numbers, materials and errors.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "image_files.hpp"
+#include "poreshock/core/error.hpp"
+#include "poreshock/sample/fill.hpp"
+#include "sample_scenes.hpp"
+
+namespace poreshock {
+namespace {
+
+Scene grain_scene(SampleKind kind, double porosity, int dimension = 2) {
+  Scene scene = dimension == 2 ? testing::plane_scene(1e-3, porosity)
+                               : testing::space_scene(0.4e-3, porosity);
+  scene.sample.kind = kind;
+  scene.sample.void_radius = 0.0;
+  scene.sample.grain_radius = 60e-6;
+  scene.sample.grain_spread = 0.2;
+  return scene;
+}
+
+template <int Dim>
+struct Filled {
+  Particles<Dim> particles;
+  SampleReport report;
+};
+
+/// The whole sample filled range by range, as that many ranks do.
+template <int Dim>
+Filled<Dim> filled(const Scene& scene, int ranges = 1) {
+  Filled<Dim> all;
+  const std::int64_t layers = lattice_layers(scene);
+  for (int r = 0; r < ranges; ++r) {
+    Particles<Dim> part;
+    fill<Dim>(scene, {layers * r / ranges, layers * (r + 1) / ranges}, part, all.report);
+    std::vector<std::uint32_t> every;
+    for (std::size_t p = 0; p < part.size(); ++p) every.push_back(static_cast<std::uint32_t>(p));
+    std::vector<std::byte> bytes;
+    pack(part, every, bytes);
+    unpack(bytes.data(), every.size(), all.particles);
+  }
+  return all;
+}
+
+std::string error_of(const Scene& scene) {
+  try {
+    Particles<2> particles;
+    SampleReport report;
+    fill<2>(scene, {0, lattice_layers(scene)}, particles, report);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' not in: " << text;
+  }
+}
+
+/// Least distance between the surfaces of two grains, periodic in x.
+double least_distance(const Scene& scene, const std::vector<Grain>& grains) {
+  double least = 1.0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double square = 0.0;
+      for (int a = 0; a < scene.dimension; ++a) {
+        double d = std::fabs(grains[i].center[a] - grains[j].center[a]);
+        if (a + 1 < scene.dimension) d = std::min(d, scene.domain.size[a] - d);
+        square += d * d;
+      }
+      least = std::min(least, std::sqrt(square) - grains[i].radius - grains[j].radius);
+    }
+  }
+  return least;
+}
+
+// From loose to nearly jammed: the share is exact, nothing overlaps, all lie inside the block.
+TEST(PackedGrains, MeetTheVoidFractionWithoutOverlap) {
+  for (const double porosity : {0.46, 0.25, 0.19}) {
+    Scene scene = grain_scene(SampleKind::packed_grains, porosity);
+    scene.sample.grain_gap = 1e-6;
+    const Filled<2> made = filled<2>(scene);
+    const std::vector<Grain>& grains = made.report.grains;
+    ASSERT_GT(grains.size(), 30U);
+    double area = 0.0;
+    for (const Grain& g : grains) {
+      area += std::numbers::pi * g.radius * g.radius;
+      EXPECT_GE(g.center[1], g.radius);
+      EXPECT_LE(g.center[1], scene.sample.height - g.radius);
+    }
+    EXPECT_NEAR(area / 1e-6, 1.0 - porosity, 1e-12);
+    EXPECT_NEAR(made.report.geometric_void_fraction, porosity, 1e-12);
+    EXPECT_GE(least_distance(scene, grains), 1e-6 * (1.0 - 1e-9));
+    EXPECT_NEAR(made.report.least_gap, least_distance(scene, grains), 1e-15);
+    EXPECT_NEAR(made.report.particle_void_fraction, porosity, 0.004);
+  }
+}
+
+TEST(PackedGrains, SizesSpreadAsAsked) {
+  Scene scene = grain_scene(SampleKind::packed_grains, 0.4);
+  scene.sample.grain_radius = 12e-6;
+  scene.sample.grain_spread = 0.3;
+  const std::vector<Grain> grains = filled<2>(scene).report.grains;
+  ASSERT_GT(grains.size(), 800U);
+  double mean = 0.0, square = 0.0;
+  for (const Grain& g : grains) mean += std::log(g.radius) / static_cast<double>(grains.size());
+  for (const Grain& g : grains) square += std::pow(std::log(g.radius) - mean, 2);
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(grains.size())), 0.3, 0.03);
+  EXPECT_NEAR(std::exp(mean), 12e-6, 0.4e-6);
+}
+
+TEST(PackedGrains, BallsIn3D) {
+  const Scene scene = grain_scene(SampleKind::packed_grains, 0.5, 3);
+  const Filled<3> made = filled<3>(scene);
+  double volume = 0.0;
+  for (const Grain& g : made.report.grains) volume += g.measure;
+  EXPECT_NEAR(volume / 6.4e-11, 0.5, 1e-12);
+  EXPECT_GE(least_distance(scene, made.report.grains), 0.0);
+  EXPECT_NEAR(made.report.particle_void_fraction, 0.5, 0.005);
+}
+
+/// Least distance between particles of different grains up to `limit`, m; particles in id order.
+double particle_gap(const Particles<2>& particles, double width, double limit) {
+  double least = limit;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    for (std::size_t q = p; q-- > 0;) {
+      if (particles.position[1][p] - particles.position[1][q] > limit) break;
+      if (particles.grain[p] == particles.grain[q]) continue;
+      double dx = std::fabs(particles.position[0][p] - particles.position[0][q]);
+      dx = std::min(dx, width - dx);
+      least = std::min(least, std::hypot(dx, particles.position[1][p] - particles.position[1][q]));
+    }
+  }
+  return least;
+}
+
+// Solid fractions that no disc pack reaches, with a gap that is the same everywhere.
+TEST(VoronoiGrains, MeetTheVoidFractionWithAUniformGap) {
+  Scene scene = grain_scene(SampleKind::voronoi_grains, 0.077);
+  const Filled<2> made = filled<2>(scene);
+  EXPECT_NEAR(made.report.geometric_void_fraction, 0.077, 1e-4);
+  EXPECT_NEAR(made.report.particle_void_fraction, 0.077, 0.006);
+  EXPECT_NEAR(static_cast<double>(made.report.grains.size()), 1e-6 / (3.1416 * 3.6e-9), 12.0);
+  // A gap between straight cells of mean area A takes about gap / 2 times their perimeter.
+  const double cell = std::sqrt(1e-6 / static_cast<double>(made.report.grains.size()));
+  EXPECT_NEAR(made.report.least_gap, 0.077 * cell / 1.95, 0.1 * 0.077 * cell);
+  scene.sample.porosity = 0.3;
+  const Filled<2> wide = filled<2>(scene);
+  // Particles are points: their lattice may leave up to a diagonal more on each side.
+  EXPECT_LE(particle_gap(wide.particles, 1e-3, 40e-6), wide.report.least_gap + 2.0 * 7.1e-6);
+  EXPECT_GE(particle_gap(wide.particles, 1e-3, 40e-6), wide.report.least_gap);
+}
+
+TEST(VoronoiGrains, In3D) {
+  const Filled<3> made = filled<3>(grain_scene(SampleKind::voronoi_grains, 0.2, 3));
+  EXPECT_NEAR(made.report.geometric_void_fraction, 0.2, 1e-4);
+  EXPECT_NEAR(made.report.particle_void_fraction, 0.2, 0.02);
+}
+
+// Slabs of a sample are the parts of the whole one, and the sample depends on nothing but its keys.
+TEST(Grains, AreTheSameOnAnyNumberOfRanks) {
+  for (const SampleKind kind : {SampleKind::packed_grains, SampleKind::voronoi_grains}) {
+    Scene scene = grain_scene(kind, 0.3);
+    const Filled<2> whole = filled<2>(scene), parts = filled<2>(scene, 3);
+    EXPECT_EQ(whole.particles.id, parts.particles.id);
+    EXPECT_EQ(whole.particles.grain, parts.particles.grain);
+    EXPECT_EQ(whole.particles.material, parts.particles.material);
+    const Filled<2> fine = filled<2>(testing::refined(scene));
+    ASSERT_EQ(fine.report.grains.size(), whole.report.grains.size());
+    for (std::size_t g = 0; g < fine.report.grains.size(); ++g) {
+      EXPECT_EQ(fine.report.grains[g].center, whole.report.grains[g].center);
+    }
+    scene.sample.seed = 8;
+    EXPECT_NE(filled<2>(scene).particles.grain, whole.particles.grain);
+  }
+}
+
+TEST(Grains, TakeTheirMaterialsByVolume) {
+  Scene scene = grain_scene(SampleKind::packed_grains, 0.4);
+  MaterialParameters tungsten;
+  tungsten.name = "tungsten";
+  tungsten.density = 19224.0;
+  scene.materials.push_back(tungsten);
+  scene.sample.mixture = {{0, 0.7}, {1, 0.3}};
+  const Filled<2> made = filled<2>(scene);
+  double all = 0.0, heavy = 0.0;
+  for (const Grain& g : made.report.grains) {
+    all += g.measure;
+    if (g.material == 1) heavy += g.measure;
+  }
+  EXPECT_NEAR(heavy / all, 0.3, 0.02);
+  for (std::size_t p = 0; p < made.particles.size(); ++p) {
+    const std::size_t g = static_cast<std::size_t>(made.particles.grain[p] - 1);
+    ASSERT_EQ(made.particles.material[p], made.report.grains[g].material);
+    ASSERT_EQ(made.particles.density[p], made.particles.material[p] == 1 ? 19224.0 : 2700.0);
+  }
+}
+
+// Generated grains are numbered after those of the bodies, which cut into them.
+TEST(Grains, KeepApartFromBodies) {
+  Scene scene = grain_scene(SampleKind::packed_grains, 0.4);
+  Body plate;
+  plate.region.shape = BodyShape::box;
+  plate.region.low = {0.0, 0.9e-3, 0.0};
+  plate.region.high = {1e-3, 1.1e-3, 0.0};
+  plate.grain = 5;
+  scene.bodies = {plate};
+  EXPECT_EQ(first_grain_number(scene), 6);
+  const Filled<2> made = filled<2>(scene);
+  for (std::size_t p = 0; p < made.particles.size(); ++p) {
+    const bool plated = made.particles.position[1][p] > 0.9e-3;
+    ASSERT_EQ(made.particles.grain[p] == 5, plated);
+    ASSERT_GE(made.particles.grain[p], 5);
+  }
+}
+
+TEST(Grains, JammedPackingSaysWhere) {
+  Scene scene = grain_scene(SampleKind::packed_grains, 0.14);
+  const std::string text = error_of(scene);
+  expect_words(text, {"sample.porosity = 0.14 cannot be packed", "6e-05 m",
+                      "jam at a void fraction", "voronoi_grains"});
+  const std::string mark = "void fraction of ";
+  const double reached = std::stod(text.substr(text.find(mark) + mark.size()));
+  EXPECT_GT(reached, 0.14);
+  EXPECT_LT(reached, 0.25);
+  scene.sample.grain_radius = 0.7e-3;
+  expect_words(error_of(scene), {"grains in the sample block"});
+}
+
+TEST(Grains, OverlappingBodiesOfTwoGrainsAreRefused) {
+  Scene scene = grain_scene(SampleKind::none, 0.0);
+  Body a, b;
+  a.region = {.center = {0.3e-3, 0.3e-3, 0.0}, .radius = 0.1e-3, .points = {}};
+  b.region = {.center = {0.49e-3, 0.3e-3, 0.0}, .radius = 0.1e-3, .points = {}};
+  a.grain = 1;
+  b.grain = 2;
+  scene.bodies = {a, b};
+  expect_words(error_of(scene),
+               {"body.0 (grain 1) and body.1 (grain 2) overlap", "0.00039", "the same grain"});
+  scene.bodies[1].grain = 1;
+  EXPECT_EQ(error_of(scene), "");
+  scene.bodies[1].grain = 2;
+  scene.bodies[1].region.center[0] = 0.505e-3;
+  EXPECT_EQ(error_of(scene), "");
+}
+
+TEST(Islands, BecomeGrains) {
+  Scene scene = testing::plane_scene(1e-3, 0.6);
+  scene.sample.overlap = true;
+  const Filled<2> removed = filled<2>(scene);
+  scene.sample.islands = Islands::grains;
+  const Filled<2> kept = filled<2>(scene, 2);
+  ASSERT_GT(removed.report.islands, 2);
+  ASSERT_EQ(static_cast<std::int64_t>(kept.report.grains.size()), removed.report.islands);
+  ASSERT_EQ(static_cast<std::int64_t>(kept.particles.size()),
+            removed.report.particles + removed.report.island_particles);
+  std::map<int, double> area;
+  for (const int g : kept.particles.grain) area[g] += 25e-12;
+  for (std::size_t g = 0; g < kept.report.grains.size(); ++g) {
+    EXPECT_NEAR(area[static_cast<int>(g) + 1], kept.report.grains[g].measure, 1e-18);
+  }
+  EXPECT_EQ(area.size(), kept.report.grains.size() + 1);
+}
+
+Scene image_scene(const std::string& file, double pixel) {
+  Scene scene = grain_scene(SampleKind::image, 0.0);
+  scene.domain.size = {4.0 * pixel, 8.0 * pixel, 0.0};
+  scene.domain.cell = 0.5 * pixel;
+  scene.domain.cells = {8, 16, 0};
+  scene.sample.height = 3.0 * pixel;
+  scene.sample.pixel = pixel;
+  scene.sample.image = file;
+  return scene;
+}
+
+/// Grain number at the centre of each pixel, top row first, 0 = void.
+std::vector<int> grain_picture(const Scene& scene) {
+  const Filled<2> made = filled<2>(scene);
+  std::vector<int> picture(12, 0);
+  for (std::size_t p = 0; p < made.particles.size(); ++p) {
+    const int x = static_cast<int>(made.particles.position[0][p] / scene.sample.pixel);
+    const int y = static_cast<int>(made.particles.position[1][p] / scene.sample.pixel);
+    picture[static_cast<std::size_t>((2 - y) * 4 + x)] = made.particles.grain[p];
+  }
+  EXPECT_EQ(made.particles.size() % 16, 0U);
+  return picture;
+}
+
+// One grain per connected region of a label; the ends of a row meet across the periodic side.
+TEST(ImageGrains, OneForEachConnectedRegion) {
+  const std::vector<int> labels = {7, 7, 0, 7,  //
+                                   0, 0, 0, 9,  //
+                                   7, 9, 9, 9};
+  const std::vector<int> periodic = {3, 3, 0, 3,  //
+                                     0, 0, 0, 2,  //
+                                     1, 2, 2, 2};
+  const std::vector<int> open = {3, 3, 0, 4,  //
+                                 0, 0, 0, 2,  //
+                                 1, 2, 2, 2};
+  for (const std::string& file : {testing::write_pgm("labels.pgm", 4, 3, labels),
+                                  testing::write_text_pgm("t.pgm", 4, 3, labels),
+                                  testing::write_png("labels.png", 4, 3, labels, 8),
+                                  testing::write_png("labels16.png", 4, 3, labels, 16)}) {
+    Scene scene = image_scene(file, 20e-6);
+    EXPECT_EQ(grain_picture(scene), periodic) << file;
+    scene.domain.periodic = {false, false};
+    EXPECT_EQ(grain_picture(scene), open) << file;
+  }
+}
+
+TEST(ImageGrains, ThresholdJoinsGreyValues) {
+  const std::vector<int> grey = {200, 90,  10,  120,  //
+                                 10,  30,  99,  10,   //
+                                 150, 100, 101, 255};
+  Scene scene = image_scene(testing::write_png("grey.png", 4, 3, grey, 8), 20e-6);
+  scene.sample.threshold = 100.0;
+  EXPECT_EQ(grain_picture(scene), (std::vector<int>{2, 0, 0, 2, 0, 0, 0, 0, 1, 1, 1, 1}));
+  EXPECT_NEAR(filled<2>(scene).report.geometric_void_fraction, 0.5, 1e-15);
+  scene.sample.threshold = 256.0;
+  expect_words(error_of(scene), {"grey.png", "no solid pixel", "sample.threshold"});
+}
+
+TEST(ImageGrains, BadImagesAreNamed) {
+  const auto refused = [](const std::string& file) { return error_of(image_scene(file, 20e-6)); };
+  expect_words(refused("absent.png"), {"sample.image: absent.png", "cannot be opened"});
+  expect_words(refused(testing::write_bytes("text.png", "no image")),
+               {"text.png", "neither a PNG nor a PGM file"});
+  const std::vector<int> labels(12, 5);
+  std::string bytes = testing::read_bytes(testing::write_png("cut.png", 4, 3, labels, 8));
+  testing::write_bytes("cut.png", bytes.substr(0, bytes.size() / 2));
+  expect_words(refused("cut.png"), {"cut.png", "damaged PNG file", "ends too early"});
+  testing::write_bytes("cut.pgm", "P5 4 3 255\nabc");
+  expect_words(refused("cut.pgm"), {"cut.pgm", "row 0, column 3"});
+  testing::write_bytes("high.pgm", "P2 2 2 15 1 2 3 16");
+  expect_words(refused("high.pgm"), {"high.pgm", "0 to 15", "row 1, column 1"});
+  testing::write_bytes("huge.pgm", "P5 100000 100000 255\n");
+  expect_words(refused("huge.pgm"), {"huge.pgm", "100000 x 100000"});
+  const std::string file = testing::write_png("small.png", 3, 3, std::vector<int>(9, 1), 8);
+  expect_words(refused(file), {"3 columns of sample.pixel = 2e-05 m", "8e-05 m", "domain.size"});
+}
+
+}  // namespace
+}  // namespace poreshock

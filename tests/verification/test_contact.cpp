@@ -1,0 +1,246 @@
+// Contact and friction of grains and walls against closed forms: numerics of blocks, discs on an
+// incline (Bardenhagen, Brackbill & Sulsky, CMAME 187 (2000) 529) and colliding elastic discs.
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "verification/states.hpp"
+
+namespace poreshock::test {
+namespace {
+
+constexpr double gravity = 100.0;
+
+/// A soft elastic material: sound speed about 50 m/s.
+constexpr const char* soft_text = R"(
+[[material]]
+name = "soft"
+density = 1000
+young = 2e6
+poisson = 0.3
+yield = 1e9
+c0 = 41
+lambda = 1.5
+gamma = 0.0
+cv = 1000
+)";
+
+/// Mean place, velocity and spin of a grain.
+struct Motion {
+  Vector<2> place = Vector<2>::Zero(), velocity = Vector<2>::Zero();
+  double spin = 0.0;
+};
+
+Motion motion_of(const Particles<2>& particles, int grain) {
+  Motion motion;
+  double mass = 0.0, moment = 0.0, inertia = 0.0;
+  const auto place = [&](std::size_t p) {
+    return Vector<2>(particles.position[0][p], particles.position[1][p]);
+  };
+  const auto velocity = [&](std::size_t p) {
+    return Vector<2>(particles.velocity[0][p], particles.velocity[1][p]);
+  };
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.grain[p] != grain) continue;
+    mass += particles.mass[p];
+    motion.place += particles.mass[p] * place(p);
+    motion.velocity += particles.mass[p] * velocity(p);
+  }
+  motion.place /= mass;
+  motion.velocity /= mass;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.grain[p] != grain) continue;
+    const Vector<2> r = place(p) - motion.place, v = velocity(p) - motion.velocity;
+    moment += particles.mass[p] * (r[0] * v[1] - r[1] * v[0]);
+    inertia += particles.mass[p] * r.squaredNorm();
+  }
+  motion.spin = moment / inertia;
+  return motion;
+}
+
+Motion after(const std::string& text, double time, int grain) {
+  std::ostringstream end;
+  end.precision(17);
+  end << "time.end=" << time;
+  Simulation<2> sim = start<2>(scene_of(text + soft_text, {end.str()}), MPI_COMM_SELF);
+  advance_to(1000000, 0, sim);
+  return motion_of(sim.particles, grain);
+}
+
+std::string number(double x) {
+  std::ostringstream text;
+  text.precision(17);
+  text << x;
+  return text.str();
+}
+
+/// A bed of 3 or 4 cells that the wall holds, grain 1.
+std::string bed(double width, double height) {
+  return "[[body]]\nshape = \"box\"\nlow = [0.0, 0.0]\nhigh = [" + number(width) + ", " +
+         number(height) + "]\ngrain = 1\n";
+}
+
+// A block of 10 x 4 cells slides on a wall and stops after v0^2 / (2 mu g).
+TEST(Friction, BlockOnAWall) {
+  const std::string text = R"(
+[domain]
+size = [30e-3, 12e-3]
+cell = 1e-3
+[boundary]
+low = { kind = "wall", friction = 0.5 }
+high = "free"
+[[body]]
+shape = "box"
+low = [2e-3, 0.0]
+high = [12e-3, 4e-3]
+velocity = [1.0, 0.0]
+[body_force]
+acceleration = [0.0, -100.0]
+[output]
+beat = 1e-3
+[time]
+end = 1.0
+)";
+  const Motion motion = after(text, 25e-3, 0);
+  verify_relative("block_on_wall", "stop", motion.place[0] - 7e-3, 1.0 / (2.0 * 0.5 * gravity),
+                  0.01);
+  verify_at_most("block_on_wall", "velocity_after_stop", std::abs(motion.velocity[0]), 1e-3);
+}
+
+// The same on another grain. The leading edge of the block ploughs a little: the error falls with
+// the length of the block in cells.
+TEST(Friction, BlockOnAGrain) {
+  const std::string text = R"(
+[domain]
+size = [60e-3, 12e-3]
+cell = 1e-3
+[boundary]
+low = { kind = "wall", friction = 1e30 }
+high = "free"
+[[body]]
+shape = "box"
+low = [2e-3, 3e-3]
+high = [42e-3, 7e-3]
+grain = 2
+velocity = [1.0, 0.0]
+[contact]
+friction = 0.5
+[body_force]
+acceleration = [0.0, -100.0]
+[output]
+beat = 1e-3
+[time]
+end = 1.0
+)" + bed(60e-3, 3e-3);
+  const Motion motion = after(text, 25e-3, 2);
+  verify_relative("block_on_grain", "stop", motion.place[0] - 22e-3, 1.0 / (2.0 * 0.5 * gravity),
+                  0.01);
+}
+
+/// A disc of 24 cells across on an incline for 30 ms.
+Motion roll(double friction, double angle) {
+  const std::string text = R"(
+[domain]
+size = [70e-3, 32e-3]
+cell = 1e-3
+[boundary]
+low = { kind = "wall", friction = 1e30 }
+high = "free"
+[[body]]
+shape = "disc"
+center = [15e-3, 16e-3]
+radius = 12e-3
+grain = 2
+[output]
+beat = 1e-3
+[time]
+end = 1.0
+[contact]
+friction = )" + number(friction) +
+                           "\n[body_force]\nacceleration = [" + number(gravity * std::sin(angle)) +
+                           ", " + number(-gravity * std::cos(angle)) + "]\n" + bed(70e-3, 4e-3);
+  return after(text, 30e-3, 2);
+}
+
+TEST(Friction, DiscRollsDownAnIncline) {
+  const double angle = std::numbers::pi / 4.0, time = 30e-3;
+  const Motion motion = roll(0.6, angle);
+  const double acceleration = 2.0 / 3.0 * gravity * std::sin(angle);
+  verify_relative("rolling_disc", "way", motion.place[0] - 15e-3, 0.5 * acceleration * time * time,
+                  0.01);
+  record("rolling_disc", "spin_over_exact", -motion.spin * 12e-3 / (acceleration * time));
+}
+
+TEST(Friction, DiscSlipsDownAnIncline) {
+  const double angle = std::numbers::pi / 3.0, friction = 0.2, time = 30e-3;
+  const Motion motion = roll(friction, angle);
+  const double acceleration = gravity * (std::sin(angle) - friction * std::cos(angle));
+  verify_relative("slipping_disc", "way", motion.place[0] - 15e-3, 0.5 * acceleration * time * time,
+                  0.01);
+  verify_relative("slipping_disc", "spin", -motion.spin,
+                  2.0 * friction * gravity * std::cos(angle) * time / 12e-3, 0.03);
+}
+
+/// Share of the energy that two elastic discs lose in a head-on collision (Sulsky, Chen & Schreyer,
+/// CMAME 118 (1994) 179): all that is neither kinetic nor elastic.
+double lost_energy(double cell, double& momentum) {
+  const std::string text = R"(
+[domain]
+size = [1.0, 1.0]
+[boundary]
+low = "free"
+high = "free"
+[[material]]
+name = "soft"
+density = 1000
+young = 1000
+poisson = 0.3
+yield = 1e9
+c0 = 0.9129
+lambda = 1.0
+gamma = 0.0
+cv = 1000
+[[body]]
+shape = "disc"
+center = [0.30, 0.30]
+radius = 0.2
+grain = 1
+velocity = [0.1, 0.1]
+[[body]]
+shape = "disc"
+center = [0.70, 0.70]
+radius = 0.2
+grain = 2
+velocity = [-0.1, -0.1]
+[transfer]
+velocity = "flip"
+averaging = 0.0
+[viscosity]
+linear = 0.0
+quadratic = 0.0
+[output]
+beat = 0.1
+[time]
+end = 3.0
+)";
+  Simulation<2> sim = start<2>(scene_of(text, {"domain.cell=" + number(cell)}), MPI_COMM_SELF);
+  advance_to(1000000, 0, sim);
+  const HistoryRow row =
+      take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, MPI_COMM_SELF);
+  momentum = std::max(std::abs(row.momentum[0]), std::abs(row.momentum[1]));
+  EXPECT_GT(motion_of(sim.particles, 2).velocity[0], 0.05);  // they have bounced
+  return (row.contact_heat + row.friction_heat + row.filter_heat) / row.total;
+}
+
+TEST(ElasticDiscs, LoseLittleEnergyAndNoMomentum) {
+  double momentum = 0.0;
+  const double coarse = lost_energy(0.02, momentum), fine = lost_energy(0.01, momentum);
+  verify_at_most("elastic_discs", "loss_at_40_cells", fine, 0.035);
+  verify_at_least("elastic_discs", "order_of_loss", order(coarse, fine), 0.9);
+  const double before = 1000.0 * std::numbers::pi * 0.04 * 0.1;
+  verify_at_most("elastic_discs", "momentum", momentum / before, 1e-13);
+}
+
+}  // namespace
+}  // namespace poreshock::test
