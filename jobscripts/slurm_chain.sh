@@ -10,15 +10,12 @@
 set -euo pipefail
 cd "${SLURM_SUBMIT_DIR:-.}"
 source tools/stop_with_checkpoint.sh
+source jobscripts/resubmit.sh
 
 scene=${1:?usage: sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of poreshock run]}
 output=${2:?usage: sbatch jobscripts/slurm_chain.sh SCENE OUTPUT [options of poreshock run]}
 
-newest_checkpoint() {
-  [[ ! -d $output ]] || find "$output" -maxdepth 1 -name 'checkpoint_*.h5' | sort | tail -n 1
-}
-
-before=$(newest_checkpoint)
+before=$(newest_checkpoint "$output")
 restart=()
 [[ -z $before ]] || restart=(--restart latest)
 run_with_checkpoint tools/mpirun -n "$SLURM_NTASKS" build/release/poreshock run "$scene" \
@@ -26,11 +23,6 @@ run_with_checkpoint tools/mpirun -n "$SLURM_NTASKS" build/release/poreshock run 
 
 if [[ $stopped == 0 ]]; then
   echo "The run is done."
-elif [[ $(newest_checkpoint) == "$before" ]]; then
-  echo "This job wrote no checkpoint, so the next one would not get further: give each job more time." >&2
-  exit 1
 else
-  # Options given to sbatch on the command line are not kept, so the important ones are passed on.
-  sbatch --ntasks="$SLURM_NTASKS" --time="$(squeue --noheader --jobs="$SLURM_JOB_ID" --format=%l)" \
-    --partition="$SLURM_JOB_PARTITION" jobscripts/slurm_chain.sh "$@"
+  go_on_later "$output" "$before" jobscripts/slurm_chain.sh "$@"
 fi

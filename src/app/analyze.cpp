@@ -6,6 +6,7 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/morphology/quantiles.hpp"
 #include "poreshock/output/folder.hpp"
 #include "poreshock/solver/measure.hpp"
 #include "stored_map.hpp"
@@ -61,16 +62,34 @@ struct Request {
   const AnalyzeOptions& options;
   MorphologyField what;
   Morphology settings;
-  double largest = 0.0;  ///< threshold by size, the scale of the values of particles
+  std::vector<double> shares{};  ///< of the material below each threshold, instead of these
+  double largest = 0.0;          ///< threshold by size, the scale of the values of particles
 };
 
+MapVoids parse_voids(const std::string& text) {
+  if (text == "black") return MapVoids::black;
+  if (text == "white") return MapVoids::white;
+  if (text == "fill") return MapVoids::fill;
+  if (text == "exclude") return MapVoids::exclude;
+  throw InputError("--voids: found \"" + text +
+                   "\", allowed \"black\", \"white\", \"fill\", \"exclude\"");
+}
+
 Request make_request(const AnalyzeOptions& options) {
-  if (options.thresholds.empty()) {
-    throw InputError("--thresholds: missing, give FROM:TO:STEP or A,B,C in the unit of the field");
+  if (options.thresholds.empty() == options.quantiles.empty()) {
+    throw InputError(
+        "--thresholds: give FROM:TO:STEP or A,B,C in the unit of the field, or, and not both, "
+        "--quantiles with shares of the material");
   }
-  Request request{options, {}, {}, 0.0};
+  Request request{options, {}, {}};
   request.settings.domains = true;
-  request.what.thresholds = parse_levels("--thresholds", options.thresholds);
+  if (options.quantiles.empty()) {
+    request.what.thresholds = parse_levels("--thresholds", options.thresholds);
+  } else {
+    request.shares = parse_levels("--quantiles", options.quantiles);
+  }
+  if (!options.voids.empty()) request.settings.voids = parse_voids(options.voids);
+  if (options.isoline) request.settings.length = BoundaryLength::isoline;
   if (!options.hot_spots.empty()) {
     request.what.hot_spots = parse_levels("--hot-spots", options.hot_spots);
   }
@@ -89,8 +108,21 @@ struct Measured {
 template <int Dim>
 Measured measure_map(StoredMap<Dim> stored, Request request, MPI_Comm communicator) {
   request.what.name = stored.field;
-  return {stored.stamp, measure<Dim>(stored.map, 0, request.what, stored.unit, request.settings,
-                                     stored.shift, communicator)};
+  if (Dim == 3 && request.options.isoline) {
+    throw InputError("--isoline: found a map of three dimensions, allowed two");
+  }
+  if (!request.shares.empty()) {
+    request.what.thresholds = quantiles<Dim>(stored.map, 0, request.shares, communicator);
+  }
+  Measured result{stored.stamp, measure<Dim>(stored.map, 0, request.what, stored.unit,
+                                             request.settings, stored.shift, communicator)};
+  if (request.shares.empty()) return result;
+  // All records of a file share their axis: the shares, with the values as a curve beside.
+  result.record.functionals.insert(result.record.functionals.begin(),
+                                   {"level", request.what.thresholds, stored.unit});
+  result.record.threshold = request.shares;
+  result.record.unit = std::string("1");
+  return result;
 }
 
 /// Arrays are numbered as they come; their time is that number.
@@ -140,11 +172,11 @@ void print(const std::string& name, const Measured& measured) {
   const MorphologyRecord& record = measured.record;
   std::printf("%s: %s, %lld pixels of material\n  %-16s", name.c_str(), record.field.c_str(),
               static_cast<long long>(record.pixels), ("threshold [" + record.unit + "]").c_str());
-  for (const auto& [key, values] : record.functionals) std::printf(" %-13s", key.c_str());
+  for (const Curve& curve : record.functionals) std::printf(" %-13s", curve.name.c_str());
   std::printf("\n");
   for (std::size_t j = 0; j < record.threshold.size(); ++j) {
     std::printf("  %-16.8g", record.threshold[j]);
-    for (const auto& [key, values] : record.functionals) std::printf(" %-13.6g", values[j]);
+    for (const Curve& curve : record.functionals) std::printf(" %-13.6g", curve.values[j]);
     std::printf("\n");
   }
   if (!record.spot_columns.empty()) std::printf("  %zu hot spots listed\n", record.spots);

@@ -77,10 +77,26 @@ void print_sample(const Scene& scene, const SampleReport& report) {
   }
 }
 
+/// State, averaged pressure, sort order, cell number and one column in flight while particles are
+/// reordered, bytes per particle; what is kept for chunks of rows alone does not grow with them.
+template <int Dim>
+double bytes_of_a_run(const Simulation<Dim>& sim) {
+  const Transfer& transfer = sim.scene.transfer;
+  double columns = 1.0;
+  if (transfer.averaging > 0.0) columns += 1.0;
+  if (transfer.velocity == VelocityTransfer::fmpm) columns += Dim + 1.0;
+  if (sim.heat) columns += Dim + 1.0;
+  return static_cast<double>(bytes_per_particle(sim.particles)) + 8.0 * columns + 8.0;
+}
+
 template <int Dim>
 void check(const Scene& scene, MPI_Comm communicator) {
   const Simulation<Dim> sim = start<Dim>(scene, communicator);
-  const std::int64_t grid_bytes = sum(static_cast<std::int64_t>(sim.grid->bytes()), communicator);
+  std::int64_t grid_bytes = 0;
+  for (const SlabGrid* grid : {sim.grid.get(), sim.averages.get(), sim.heat.get()}) {
+    if (grid != nullptr) grid_bytes += static_cast<std::int64_t>(grid->bytes());
+  }
+  grid_bytes = sum(grid_bytes, communicator);
   if (rank(communicator) != 0) return;
   std::printf("%s\n", sim.scene_text.c_str());
   print_sample(scene, sim.sample);
@@ -88,9 +104,7 @@ void check(const Scene& scene, MPI_Comm communicator) {
   const double mechanical = mechanical_step(scene);
   const double dt = std::min(mechanical, sim.conduction_limit);
   const double steps = std::ceil(scene.time.end / dt);
-  // State, step data, sort order and cell numbers.
-  const double bytes = static_cast<double>(bytes_per_particle(sim.particles)) +
-                       8.0 * (Dim * Dim + rate_size<Dim> + 1) + 8.0;
+  const double bytes = bytes_of_a_run(sim);
   print_conduction(scene, mechanical, sim.conduction_limit);
   const double rate = assumed_rate[Dim - 2] * size(communicator);
   std::printf("typical time step       %.3g s, about %.0f steps\n", dt, steps);

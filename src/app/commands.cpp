@@ -12,6 +12,7 @@
 #include "poreshock/output/info.hpp"
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/scene/compare_scenes.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/run.hpp"
 
@@ -33,28 +34,14 @@ Scene read_everywhere(const Command& command, MPI_Comm communicator) {
   return parse_scene(text, command.file);
 }
 
-/// Tables in which two scenes of one dimension differ physically.
-std::string differences(const Scene& a, const Scene& b) {
-  const std::pair<const char*, bool> tables[] = {{"thermal", a.thermal == b.thermal},
-                                                 {"domain", a.domain == b.domain},
-                                                 {"boundary", a.boundary == b.boundary},
-                                                 {"material", a.materials == b.materials},
-                                                 {"sample", a.sample == b.sample},
-                                                 {"body", a.bodies == b.bodies},
-                                                 {"void", a.voids == b.voids},
-                                                 {"loading", a.loading == b.loading},
-                                                 {"body_force", a.body_force == b.body_force},
-                                                 {"transfer", a.transfer == b.transfer},
-                                                 {"viscosity", a.viscosity == b.viscosity},
-                                                 {"conduction", a.conduction == b.conduction},
-                                                 {"contact", a.contact == b.contact},
-                                                 {"time.cfl", a.time.cfl == b.time.cfl},
-                                                 {"output.beat", a.output.beat == b.output.beat}};
+/// What a scene has that the checkpoint's may not differ from, by key; empty when it may go on.
+std::string differences(const Scene& now, const Scene& allowed) {
+  if (now == allowed) return {};
   std::string names;
-  for (const auto& [name, same] : tables) {
-    if (!same) names.append(names.empty() ? "" : ", ").append(name);
+  for (const std::string& key : different_keys(now, allowed)) {
+    names.append(names.empty() ? "" : ", ").append(key);
   }
-  return names.empty() ? "another table" : names;
+  return names.empty() ? "a setting that is not written out" : names;
 }
 
 /// The stored scene with all that may differ on a restart taken from the scene of now.
@@ -80,9 +67,10 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
                      "-D run, the scene asks for " + std::to_string(now.dimension) + "-D");
   }
   const Scene stored = parse_scene(header.scene_text, path);
-  if (with_free_settings(stored, now) != now) {
+  const std::string names = differences(now, with_free_settings(stored, now));
+  if (!names.empty()) {
     throw InputError(
-        path + " was written by a scene that differs in " + differences(now, stored) +
+        path + " was written by a scene that differs in " + names +
         "; allowed are differences in the title, time.end, time.max_steps, output, "
         "checkpoint, profile and morphology: restart with the scene.toml beside it, or start a "
         "new run");
@@ -152,7 +140,11 @@ void declare_analyze(Command& command, CLI::App& app) {
   AnalyzeOptions& options = command.analyze;
   CLI::App* analyze = app.add_subcommand("analyze", "morphology of stored fields");
   analyze->add_option("files", options.files, "snapshots, FILE.npy or FILE.h5:/path")->required();
-  analyze->add_option("--thresholds", options.thresholds, "FROM:TO:STEP or A,B,C")->required();
+  analyze->add_option("--thresholds", options.thresholds, "FROM:TO:STEP or A,B,C");
+  analyze->add_option("--quantiles", options.quantiles,
+                      "instead: shares of the material below each threshold, written the same way");
+  analyze->add_option("--voids", options.voids, "in chi: black (default), white, fill or exclude");
+  analyze->add_flag("--isoline", options.isoline, "lengths of interpolated boundaries too, in 2-D");
   analyze->add_option("--hot-spots", options.hot_spots,
                       "thresholds at which every hot spot is listed, written the same way");
   analyze->add_option("--field", options.field,
@@ -175,9 +167,12 @@ void declare_compare(Command& command, CLI::App& app) {
       ->required();
   compare->add_option("--field", options.field, "field (default temperature)");
   compare->add_option("--threshold", options.threshold,
-                      "threshold of the reference (default all that it measured)");
-  compare->add_option("--window", options.window,
-                      "BEGIN:END in seconds (default: to the end of loading of the slower run)");
+                      "thresholds of the reference, A,B,C (default all that it measured)");
+  compare->add_option(
+      "--window", options.window,
+      "BEGIN:END in seconds, or slower (default) or faster: to that run's end of loading");
+  compare->add_option("--time", options.time,
+                      "common (default), or loading: in units of each run's own loading time");
   compare->add_option("--chi", options.chi, "chi (default), chi4, chi6 or chi_paper");
   compare->add_option("--length", options.length,
                       "unit of length in metres (default: the pixel, the same in all runs)");

@@ -4,34 +4,46 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/similarity.hpp"
 #include "poreshock/output/comparison_file.hpp"
 #include "poreshock/output/morphology_file.hpp"
+#include "seed_groups.hpp"
 #include "text.hpp"
 
 namespace poreshock {
 
 namespace {
 
-std::optional<Window> parse_window(const std::string& text) {
-  if (text.empty()) return std::nullopt;
+/// The time window as asked for: its two ends, or whose end of loading ends it.
+struct WindowChoice {
+  std::optional<Window> window{};
+  Until until = Until::slower;
+};
+
+WindowChoice parse_window(const std::string& text) {
+  if (text.empty() || text == "slower") return {};
+  if (text == "faster") return {std::nullopt, Until::faster};
   const std::size_t colon = text.find(':');
   const auto begin = parse_number(text.substr(0, colon));
   const auto end = colon == std::string::npos ? std::nullopt : parse_number(text.substr(colon + 1));
   if (!begin || !end || !(*begin < *end)) {
-    throw InputError("--window: found \"" + text +
-                     "\", allowed BEGIN:END, two numbers in seconds, the second larger");
+    throw InputError(
+        "--window: found \"" + text +
+        "\", allowed BEGIN:END, two numbers in seconds, the second larger, or slower or "
+        "faster, the run whose end of loading ends the window");
   }
-  return Window{*begin, *end};
+  return {Window{*begin, *end}};
 }
 
 /// What was read of one run.
 struct RunData {
   std::string path;
   std::string unit;
+  std::string scene;   ///< text
   double pixel = 0.0;  ///< m
   Process process;
 };
@@ -56,7 +68,7 @@ std::vector<std::string> functional_names(const MorphologyCurves& curves, const 
 /// Functionals per pixel, or in units of `length`: the k-th one counts pixels to the power -k.
 RunData read_run(const std::string& path, const CompareOptions& options, MPI_Comm communicator) {
   MorphologyCurves curves = read_morphology(path, options.field, communicator);
-  RunData run{path, curves.unit, curves.pixel, {}};
+  RunData run{path, curves.unit, curves.scene, curves.pixel, {}};
   run.process.time = curves.time;
   run.process.threshold = curves.threshold;
   const double ratio = options.length > 0.0 ? options.length / curves.pixel : 1.0;
@@ -66,6 +78,11 @@ RunData read_run(const std::string& path, const CompareOptions& options, MPI_Com
     for (double& value : values) value *= factor;
     run.process.functionals.push_back(std::move(values));
     factor *= ratio;
+  }
+  if (options.time == "loading") {
+    const double loaded = end_of_loading(run.process);
+    if (!(loaded > 0.0)) throw InputError(path + ": its first record is its hottest: no loading");
+    for (double& time : run.process.time) time /= loaded;
   }
   return run;
 }
@@ -87,17 +104,23 @@ void require_comparable(const RunData& reference, const RunData& run,
                    "metres with --length");
 }
 
-double checked_threshold(const std::string& text, const RunData& reference) {
-  const auto threshold = parse_number(text);
+std::vector<double> checked_thresholds(const std::string& text, const RunData& reference) {
   const std::vector<double>& measured = reference.process.threshold;
-  if (threshold && measured.front() <= *threshold && *threshold <= measured.back()) {
-    return *threshold;
+  std::vector<double> thresholds;
+  std::stringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto threshold = parse_number(part);
+    if (threshold && measured.front() <= *threshold && *threshold <= measured.back()) {
+      thresholds.push_back(*threshold);
+      continue;
+    }
+    char allowed[96];
+    std::snprintf(allowed, sizeof(allowed), "a number from %.8g to %.8g %s", measured.front(),
+                  measured.back(), reference.unit.c_str());
+    throw InputError("--threshold: found \"" + part + "\", allowed " + allowed + ", what " +
+                     reference.path + " measured");
   }
-  char allowed[96];
-  std::snprintf(allowed, sizeof(allowed), "a number from %.8g to %.8g %s", measured.front(),
-                measured.back(), reference.unit.c_str());
-  throw InputError("--threshold: found \"" + text + "\", allowed " + allowed + ", what " +
-                   reference.path + " measured");
+  return thresholds;
 }
 
 /// d_p at the threshold of the reference; NaN when the run did not measure it.
@@ -110,8 +133,9 @@ double distance_at_same(const Path& reference, const Process& process, double th
 }
 
 ComparedRun compare_run(const RunData& reference, const RunData& run,
-                        const std::vector<double>& thresholds, const std::optional<Window>& asked) {
-  const Window window = asked ? *asked : loading_window(reference.process, run.process);
+                        const std::vector<double>& thresholds, const WindowChoice& asked) {
+  const Window window =
+      asked.window ? *asked.window : loading_window(reference.process, run.process, asked.until);
   ComparedRun result;
   result.path = run.path;
   result.begin = window.begin;
@@ -144,8 +168,9 @@ void print(const Comparison& comparison) {
   std::printf("%s against %s, S_p = 1/d_p\n", comparison.field.c_str(),
               comparison.reference.c_str());
   for (const ComparedRun& run : comparison.runs) {
-    std::printf("\n%s, from %.6g ns to %.6g ns\n", run.path.c_str(), run.begin * 1e9,
-                run.end * 1e9);
+    const bool seconds = comparison.time_unit == "s";
+    std::printf("\n%s, from %.6g to %.6g %s\n", run.path.c_str(), run.begin * (seconds ? 1e9 : 1.0),
+                run.end * (seconds ? 1e9 : 1.0), seconds ? "ns" : "loading times");
     std::printf("  %-18s %-14s %-14s %-18s %-14s %s\n",
                 ("reference [" + comparison.unit + "]").c_str(), "d_p there", "S_p there",
                 ("best [" + comparison.unit + "]").c_str(), "d_p best", "S_p best");
@@ -175,20 +200,33 @@ void compare(const CompareOptions& options, MPI_Comm communicator) {
     throw InputError("compare: found " + std::to_string(options.runs.size()) +
                      " run, allowed two or more; the first is the reference");
   }
-  if (!(options.length >= 0.0)) throw InputError("--length: allowed a number > 0 (m)");
-  const std::optional<Window> window = parse_window(options.window);
-  const RunData reference = read_run(options.runs[0], options, communicator);
-  Comparison comparison{
-      options.runs[0], options.field, reference.unit, reference.process.threshold, {}};
-  if (!options.threshold.empty()) {
-    comparison.reference_threshold = {checked_threshold(options.threshold, reference)};
+  if (options.time != "common" && options.time != "loading") {
+    throw InputError("--time: found \"" + options.time + "\", allowed \"common\", \"loading\"");
   }
+  if (!(options.length >= 0.0)) throw InputError("--length: allowed a number > 0 (m)");
+  const WindowChoice window = parse_window(options.window);
+  const RunData reference = read_run(options.runs[0], options, communicator);
+  Comparison comparison{options.runs[0],
+                        options.field,
+                        reference.unit,
+                        options.time == "common" ? "s" : "1",
+                        reference.process.threshold,
+                        {}};
+  if (!options.threshold.empty()) {
+    comparison.reference_threshold = checked_thresholds(options.threshold, reference);
+  }
+  std::vector<std::string> scenes;
   for (std::size_t r = 1; r < options.runs.size(); ++r) {
     const RunData run = read_run(options.runs[r], options, communicator);
     require_comparable(reference, run, options);
     comparison.runs.push_back(compare_run(reference, run, comparison.reference_threshold, window));
+    scenes.push_back(run.scene);
   }
-  if (rank(communicator) == 0) print(comparison);
+  comparison.groups = group_by_seed(comparison.runs, scenes);
+  if (rank(communicator) == 0) {
+    print(comparison);
+    print_groups(comparison);
+  }
   if (!options.output.empty()) write_comparison(options.output, comparison, communicator);
 }
 

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <new>
+#include <string>
 
 #include "poreshock/app/commands.hpp"
 #include "poreshock/core/error.hpp"
@@ -9,8 +11,21 @@
 
 namespace {
 
-int fail(poreshock::ExitCode code, const char* what, MPI_Comm communicator) {
-  if (poreshock::rank(communicator) == 0) std::fprintf(stderr, "poreshock: %s\n", what);
+constexpr double seconds_for_all = 10.0;
+
+/// Ends all ranks because of what only this one knows.
+int end_all(poreshock::ExitCode code, const std::string& what) {
+  std::fprintf(stderr, "poreshock: rank %d: %s\n", poreshock::rank(MPI_COMM_WORLD), what.c_str());
+  std::fflush(stderr);
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+  return static_cast<int>(code);
+}
+
+/// An error that every rank knows of is said once; should a rank be alone with it after all, it
+/// does not wait for the others for ever.
+int fail(poreshock::ExitCode code, const char* what, MPI_Comm farewell) {
+  if (!poreshock::all_arrive(seconds_for_all, farewell)) return end_all(code, what);
+  if (poreshock::rank(farewell) == 0) std::fprintf(stderr, "poreshock: %s\n", what);
   return static_cast<int>(code);
 }
 
@@ -26,21 +41,23 @@ int refuse_command(const CLI::App& app) {
 }
 
 /// Every error that all ranks know of ends here; one that a single rank throws is fatal to all.
-int guarded(const poreshock::Command& command, MPI_Comm communicator) {
+/// `farewell` is a communicator that nothing else uses.
+int guarded(const poreshock::Command& command, MPI_Comm communicator, MPI_Comm farewell) {
   using poreshock::ExitCode;
   try {
     return static_cast<int>(poreshock::execute(command, communicator));
   } catch (const poreshock::InputError& error) {
-    return fail(ExitCode::bad_input, error.what(), communicator);
+    return fail(ExitCode::bad_input, error.what(), farewell);
   } catch (const poreshock::StateError& error) {
-    return fail(ExitCode::bad_state, error.what(), communicator);
+    return fail(ExitCode::bad_state, error.what(), farewell);
   } catch (const poreshock::SystemError& error) {
-    return fail(ExitCode::system_failure, error.what(), communicator);
+    return fail(ExitCode::system_failure, error.what(), farewell);
+  } catch (const std::bad_alloc&) {
+    return end_all(ExitCode::system_failure,
+                   "out of memory: use more nodes, larger cells or fewer particles per cell");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "poreshock: rank %d: %s\n", poreshock::rank(communicator), error.what());
-    MPI_Abort(communicator, static_cast<int>(ExitCode::system_failure));
+    return end_all(ExitCode::system_failure, error.what());
   }
-  return static_cast<int>(ExitCode::system_failure);
 }
 
 }  // namespace
@@ -69,5 +86,9 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(poreshock::ExitCode::bad_input);
   }
   const poreshock::Runtime runtime(argc, argv);
-  return guarded(command, runtime.communicator());
+  MPI_Comm farewell = MPI_COMM_NULL;
+  MPI_Comm_dup(runtime.communicator(), &farewell);
+  const int code = guarded(command, runtime.communicator(), farewell);
+  MPI_Comm_free(&farewell);
+  return code;
 }

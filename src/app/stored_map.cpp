@@ -110,6 +110,17 @@ std::vector<double> read_field(const std::string& name, const Columns& columns) 
   return result;
 }
 
+/// Largest finite value by size over all ranks, zero without one. Collective.
+double largest_size(const std::vector<double>& values, MPI_Comm communicator) {
+  double largest = 0.0;
+  for (const double value : values) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator),
+            "MPI_Allreduce");
+  return largest;
+}
+
 template <int Dim>
 PixelLayout<Dim> layout_of(const Scene& scene, double pixel) {
   PixelLayout<Dim> layout;
@@ -200,7 +211,8 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   for (const MaterialParameters& m : scene.materials) {
     scales.density = std::max(scales.density, initial_density(make_material(m)));
   }
-  const std::vector<PixelValues> fields = {{values, largest > 0.0 ? largest : 1.0}};
+  const double scale = largest > 0.0 ? largest : largest_size(values, communicator);
+  const std::vector<PixelValues> fields = {{values, scale > 0.0 ? scale : 1.0}};
   result.map = deposit<Dim>(sources, fields, scales, grid);
   return result;
 }

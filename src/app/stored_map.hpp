@@ -31,7 +31,7 @@ StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& opti
                             MPI_Comm communicator);
 
 /// The map of a snapshot, made from its particles as the run itself does; `largest` is the largest
-/// threshold by size. Throws InputError when it lacks a dataset. Collective.
+/// threshold by size, 0 where there is none. Throws InputError when it lacks a dataset. Collective.
 template <int Dim>
 StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& options,
                                double largest, MPI_Comm communicator);

@@ -2,6 +2,9 @@
 
 #include <petscsys.h>
 
+#include <chrono>
+#include <thread>
+
 #include "poreshock/core/error.hpp"
 
 namespace poreshock {
@@ -70,6 +73,18 @@ void broadcast(std::string& text, MPI_Comm communicator) {
   text.resize(static_cast<std::size_t>(length));
   check_mpi(MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, communicator),
             "MPI_Bcast");
+}
+
+bool all_arrive(double seconds, MPI_Comm communicator) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  check_mpi(MPI_Ibarrier(communicator, &request), "MPI_Ibarrier");
+  int arrived = 0;
+  const double end = MPI_Wtime() + seconds;
+  while (true) {
+    check_mpi(MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), "MPI_Test");
+    if (arrived != 0 || MPI_Wtime() > end) return arrived != 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 std::string version() {

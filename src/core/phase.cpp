@@ -1,5 +1,7 @@
 #include "poreshock/core/phase.hpp"
 
+#include <sys/resource.h>
+
 #include <petsclog.h>
 
 #include "poreshock/core/parallel.hpp"
@@ -13,6 +15,12 @@ std::string_view phase_name(PhaseName phase) {
       "stress",      "time step", "migrate",           "rebalance", "morphology",
       "profile",     "history",   "snapshot",          "checkpoint"};
   return names[static_cast<std::size_t>(phase)];
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
 PhaseTable make_phase_table() {

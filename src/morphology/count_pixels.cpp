@@ -1,6 +1,8 @@
 #include "poreshock/morphology/minkowski.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -17,23 +19,29 @@ template <class Rank>
 struct Row {
   std::vector<Rank> ranks;
   std::vector<std::uint8_t> mask;
+  std::vector<std::uint64_t> voids;  ///< bit i % 64 of word i / 64: pixel i of the row is void
   bool outside = true;
-  bool has_void = false;
 
-  explicit Row(std::size_t width) : ranks(width + 2, Rank{0}), mask(width + 2, 1) {}
+  explicit Row(std::size_t width)
+      : ranks(width + 2, Rank{0}), mask(width + 2, 1), voids((width + 2 + 63) / 64, 0) {}
 };
 
 struct Histograms {
-  Histogram F, E, V, V4, D, B_void, B_frame;
+  Histogram F, Ex, Ey, V, V4, D, Bx_void, By_void, D_void, Bx_frame, By_frame, D_frame;
 
   explicit Histograms(std::size_t thresholds)
       : F(thresholds),
-        E(thresholds),
+        Ex(thresholds),
+        Ey(thresholds),
         V(thresholds),
         V4(thresholds),
         D(thresholds),
-        B_void(thresholds),
-        B_frame(thresholds) {}
+        Bx_void(thresholds),
+        By_void(thresholds),
+        D_void(thresholds),
+        Bx_frame(thresholds),
+        By_frame(thresholds),
+        D_frame(thresholds) {}
 };
 
 void check_block(const PixelBlock& block) {
@@ -49,6 +57,27 @@ void check_block(const PixelBlock& block) {
                    " mask entries.");
 }
 
+/// Sets the bits of the void pixels of the row itself, those at its two ends left out.
+template <class Rank>
+void mark_voids(Row<Rank>& row) {
+  const std::size_t last = row.mask.size() - 2;
+  for (std::size_t w = 0; w < row.voids.size(); ++w) {
+    std::uint8_t solid[64];
+    std::memset(solid, 1, sizeof(solid));
+    const std::size_t first = std::max<std::size_t>(64 * w, 1);
+    const std::size_t end = std::min(64 * w + 64, last + 1);
+    if (first < end) std::memcpy(solid + first - 64 * w, &row.mask[first], end - first);
+    std::uint64_t bits = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, solid + 8 * k, sizeof(eight));
+      // Each byte is 0 or 1; the product moves the lowest bit of byte i to bit 56 + i.
+      bits |= (((eight ^ 0x0101010101010101U) * 0x0102040810204080U) >> 56) << (8 * k);
+    }
+    row.voids[w] = bits;
+  }
+}
+
 template <class Rank>
 void read_row(const PixelBlock& block, const RankTable& table, int row, Row<Rank>& result) {
   const auto width = static_cast<std::size_t>(block.width);
@@ -61,7 +90,7 @@ void read_row(const PixelBlock& block, const RankTable& table, int row, Row<Rank
     padded_row(table, block.values.subspan(start, width), block.solid.subspan(start, width),
                block.periodic, result.ranks.data(), result.mask.data());
   }
-  result.has_void = std::find(result.mask.begin(), result.mask.end(), 0) != result.mask.end();
+  mark_voids(result);
 }
 
 /// Adds the cells owned by the row `low`. Where x is not periodic, the pixel outside on the left
@@ -76,45 +105,73 @@ void add_row(const Row<Rank>& low, const Row<Rank>& high, bool periodic, Rank* s
   const auto add = [&](auto combine, Histogram& histogram) {
     add_combined(begin, end, combine, scratch, histogram);
   };
+  // By value: std::max returns one of two addresses, which does not vectorise.
+  const auto most = [](Rank p, Rank q) { return p < q ? q : p; };
+  const auto least = [](Rank p, Rank q) { return q < p ? q : p; };
   add([=](std::size_t i) { return a[i]; }, histograms.F);
-  add([=](std::size_t i) { return std::max(a[i], a[i + 1]); }, histograms.E);
-  add([=](std::size_t i) { return std::max(a[i], b[i]); }, histograms.E);
-  add([=](std::size_t i) { return std::max(std::max(a[i], a[i + 1]), std::max(b[i], b[i + 1])); },
+  add([=](std::size_t i) { return most(a[i], a[i + 1]); }, histograms.Ex);
+  add([=](std::size_t i) { return most(a[i], b[i]); }, histograms.Ey);
+  add([=](std::size_t i) { return most(most(a[i], a[i + 1]), most(b[i], b[i + 1])); },
       histograms.V);
-  add([=](std::size_t i) { return std::min(std::min(a[i], a[i + 1]), std::min(b[i], b[i + 1])); },
+  add([=](std::size_t i) { return least(least(a[i], a[i + 1]), least(b[i], b[i + 1])); },
       histograms.V4);
-  add([=](std::size_t i) { return std::max(a[i], b[i + 1]); }, histograms.D);
-  add([=](std::size_t i) { return std::max(a[i + 1], b[i]); }, histograms.D);
+  add([=](std::size_t i) { return most(a[i], b[i + 1]); }, histograms.D);
+  add([=](std::size_t i) { return most(a[i + 1], b[i]); }, histograms.D);
 }
 
-/// Adds the edges between material and void that the row `low` owns.
+/// Adds the edges and diagonals between material and void that the row `low` owns, seen from the
+/// void pixels: what lies across has its rank, and rank 0 where it is void too, which counts as
+/// nothing.
 template <class Rank>
-void add_void_edges(const Row<Rank>& low, const Row<Rank>& high, Histogram& histogram) {
-  if (!low.has_void && !high.has_void) return;
-  for (std::size_t i = 1; i + 1 < low.ranks.size(); ++i) {
-    if ((low.mask[i] & low.mask[i + 1]) == 0) {
-      add_rank(std::max(low.ranks[i], low.ranks[i + 1]), histogram);
+void add_void_edges(const Row<Rank>& low, const Row<Rank>& high, Histograms& histograms) {
+  const Rank* a = low.ranks.data();
+  const Rank* b = high.ranks.data();
+  for (std::size_t w = 0; w < low.voids.size(); ++w) {
+    // Pixels with nothing but void around have no such edges.
+    std::uint64_t inside = low.voids[w] & high.voids[w];
+    inside &= (inside << 1) & (inside >> 1);
+    for (std::uint64_t left = low.voids[w] & ~inside; left != 0; left &= left - 1) {
+      const std::size_t i = 64 * w + static_cast<std::size_t>(std::countr_zero(left));
+      add_rank(a[i - 1], histograms.Bx_void);
+      add_rank(a[i + 1], histograms.Bx_void);
+      add_rank(b[i], histograms.By_void);
+      add_rank(b[i - 1], histograms.D_void);
+      add_rank(b[i + 1], histograms.D_void);
     }
-    if ((low.mask[i] & high.mask[i]) == 0) {
-      add_rank(std::max(low.ranks[i], high.ranks[i]), histogram);
+    for (std::uint64_t left = high.voids[w] & ~inside; left != 0; left &= left - 1) {
+      const std::size_t i = 64 * w + static_cast<std::size_t>(std::countr_zero(left));
+      add_rank(a[i], histograms.By_void);
+      add_rank(a[i - 1], histograms.D_void);
+      add_rank(a[i + 1], histograms.D_void);
     }
   }
 }
 
-/// Adds the frame edges that the row `low` owns; one of two neighbours outside has rank 0.
+/// Adds the frame edges and diagonals that the row `low` owns; one of two neighbours outside has
+/// rank 0.
 template <class Rank>
 void add_frame_edges(const Row<Rank>& low, const Row<Rank>& high, bool periodic, Rank* scratch,
-                     Histogram& histogram) {
+                     Histograms& histograms) {
+  const Rank* a = low.ranks.data();
+  const Rank* b = high.ranks.data();
   const std::size_t width = low.ranks.size() - 2;
   if (!periodic && !low.outside) {
-    add_rank(low.ranks[1], histogram);
-    add_rank(low.ranks[width], histogram);
+    add_rank(a[1], histograms.Bx_frame);
+    add_rank(a[width], histograms.Bx_frame);
   }
   if (low.outside || high.outside) {
-    const Rank* a = low.ranks.data();
-    const Rank* b = high.ranks.data();
-    add_combined(
-        1, width + 1, [=](std::size_t i) { return std::max(a[i], b[i]); }, scratch, histogram);
+    const auto add = [&](std::size_t begin, auto combine, Histogram& histogram) {
+      add_combined(begin, width + 1, combine, scratch, histogram);
+    };
+    const std::size_t begin = periodic ? 1 : 0;
+    add(
+        1, [=](std::size_t i) { return std::max(a[i], b[i]); }, histograms.By_frame);
+    add(
+        begin, [=](std::size_t i) { return std::max(a[i], b[i + 1]); }, histograms.D_frame);
+    add(
+        begin, [=](std::size_t i) { return std::max(a[i + 1], b[i]); }, histograms.D_frame);
+  } else if (!periodic) {
+    for (const Rank rank : {a[1], b[1], a[width], b[width]}) add_rank(rank, histograms.D_frame);
   }
 }
 
@@ -128,9 +185,41 @@ void fill_histograms(const PixelBlock& block, const RankTable& table, Histograms
     if (row == 0 && !block.first) read_row(block, table, 0, low);
     read_row(block, table, row + 1, high);
     add_row(low, high, block.periodic, scratch.data(), histograms);
-    add_void_edges(low, high, histograms.B_void);
-    add_frame_edges(low, high, block.periodic, scratch.data(), histograms.B_frame);
+    add_void_edges(low, high, histograms);
+    add_frame_edges(low, high, block.periodic, scratch.data(), histograms);
     std::swap(low, high);
+  }
+}
+
+/// Adds b to a, element by element.
+std::vector<std::int64_t> sum_of(std::vector<std::int64_t> a, const std::vector<std::int64_t>& b) {
+  for (std::size_t j = 0; j < a.size(); ++j) a[j] += b[j];
+  return a;
+}
+
+/// The counts that follow from the histograms. A row of K white pixels has 2 K ends along each axis
+/// and diagonal, so that 2 E - 2 F edges across an axis, or 2 D - 4 F diagonals, are boundary.
+void take_counts(const Histograms& h, PixelCounts& counts) {
+  const auto Ex = white_counts(h.Ex), Ey = white_counts(h.Ey);
+  const auto Bx_void = white_counts(h.Bx_void), By_void = white_counts(h.By_void);
+  const auto Bx_frame = white_counts(h.Bx_frame), By_frame = white_counts(h.By_frame);
+  const auto D_void = white_counts(h.D_void), D_frame = white_counts(h.D_frame);
+  counts.F = white_counts(h.F);
+  counts.E = sum_of(Ex, Ey);
+  counts.V = white_counts(h.V);
+  counts.V4 = white_counts(h.V4);
+  counts.D = white_counts(h.D);
+  counts.B_void = sum_of(Bx_void, By_void);
+  counts.B_frame = sum_of(Bx_frame, By_frame);
+  const std::size_t thresholds = counts.F.size();
+  counts.B_int.resize(thresholds);
+  counts.B_axial.resize(thresholds);
+  counts.D_int.resize(thresholds);
+  for (std::size_t j = 0; j < thresholds; ++j) {
+    const std::int64_t F = counts.F[j];
+    counts.B_int[j] = 2 * counts.E[j] - 4 * F - counts.B_void[j] - counts.B_frame[j];
+    counts.B_axial[j] = 2 * Ey[j] - 2 * F - By_void[j] - By_frame[j];
+    counts.D_int[j] = 2 * counts.D[j] - 4 * F - D_void[j] - D_frame[j];
   }
 }
 
@@ -146,19 +235,9 @@ PixelCounts count_pixels(const PixelBlock& block, std::span<const double> thresh
                    [&](auto zero) { fill_histograms<decltype(zero)>(block, table, histograms); });
     const std::size_t owned =
         static_cast<std::size_t>(block.rows) * static_cast<std::size_t>(block.width);
-    for (std::size_t i = 0; i < owned; ++i) counts.pixels += block.solid[i] != 0 ? 1 : 0;
+    counts.pixels = material_in(block.solid.first(owned));
   }
-  counts.F = white_counts(histograms.F);
-  counts.E = white_counts(histograms.E);
-  counts.V = white_counts(histograms.V);
-  counts.V4 = white_counts(histograms.V4);
-  counts.D = white_counts(histograms.D);
-  counts.B_void = white_counts(histograms.B_void);
-  counts.B_frame = white_counts(histograms.B_frame);
-  counts.B_int.resize(thresholds.size());
-  for (std::size_t j = 0; j < thresholds.size(); ++j) {
-    counts.B_int[j] = 2 * counts.E[j] - 4 * counts.F[j] - counts.B_void[j] - counts.B_frame[j];
-  }
+  take_counts(histograms, counts);
   return counts;
 }
 

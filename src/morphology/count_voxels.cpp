@@ -27,18 +27,22 @@ struct Layer {
   std::size_t row(std::size_t j) const { return j * (width + 2); }
 };
 
+/// Faces across the shock axis, Fz, Sz, are apart from the other ones.
 struct Histograms {
-  Histogram C, F, E, V, E4, V8, S_void, S_frame;
+  Histogram C, F, Fz, E, V, E4, V8, S_void, Sz_void, S_frame, Sz_frame;
 
   explicit Histograms(std::size_t thresholds)
       : C(thresholds),
         F(thresholds),
+        Fz(thresholds),
         E(thresholds),
         V(thresholds),
         E4(thresholds),
         V8(thresholds),
         S_void(thresholds),
-        S_frame(thresholds) {}
+        Sz_void(thresholds),
+        S_frame(thresholds),
+        Sz_frame(thresholds) {}
 };
 
 void check_block(const VoxelBlock& block) {
@@ -84,7 +88,7 @@ void read_layer(const VoxelBlock& block, const RankTable& table, int number, Lay
       copy_row(1, layer.height + 1, layer);
     }
   }
-  layer.has_void = std::find(layer.mask.begin(), layer.mask.end(), 0) != layer.mask.end();
+  layer.has_void = has_void(layer.mask);
 }
 
 /// Adds the cells owned by row j of the layer `low`: those on the high side of each voxel.
@@ -98,16 +102,15 @@ void add_row(const Layer<Rank>& low, const Layer<Rank>& high, std::size_t j, boo
   const auto add = [&](auto combine, Histogram& histogram) {
     add_combined(periodic ? 1 : 0, low.width + 1, combine, scratch, histogram);
   };
-  const auto max4 = [](Rank p, Rank q, Rank r, Rank s) {
-    return std::max(std::max(p, q), std::max(r, s));
-  };
-  const auto min4 = [](Rank p, Rank q, Rank r, Rank s) {
-    return std::min(std::min(p, q), std::min(r, s));
-  };
+  // By value: std::max returns one of two addresses, which does not vectorise.
+  const auto most = [](Rank p, Rank q) { return p < q ? q : p; };
+  const auto least = [](Rank p, Rank q) { return q < p ? q : p; };
+  const auto max4 = [=](Rank p, Rank q, Rank r, Rank s) { return most(most(p, q), most(r, s)); };
+  const auto min4 = [=](Rank p, Rank q, Rank r, Rank s) { return least(least(p, q), least(r, s)); };
   add([=](std::size_t i) { return a[i]; }, histograms.C);
-  add([=](std::size_t i) { return std::max(a[i], a[i + 1]); }, histograms.F);
-  add([=](std::size_t i) { return std::max(a[i], b[i]); }, histograms.F);
-  add([=](std::size_t i) { return std::max(a[i], c[i]); }, histograms.F);
+  add([=](std::size_t i) { return most(a[i], a[i + 1]); }, histograms.F);
+  add([=](std::size_t i) { return most(a[i], b[i]); }, histograms.F);
+  add([=](std::size_t i) { return most(a[i], c[i]); }, histograms.Fz);
   const auto add_edges = [&](auto four, Histogram& histogram) {
     add([=](std::size_t i) { return four(a[i], b[i], c[i], d[i]); }, histogram);
     add([=](std::size_t i) { return four(a[i], a[i + 1], c[i], c[i + 1]); }, histogram);
@@ -117,12 +120,12 @@ void add_row(const Layer<Rank>& low, const Layer<Rank>& high, std::size_t j, boo
   add_edges(min4, histograms.E4);
   add(
       [=](std::size_t i) {
-        return std::max(max4(a[i], b[i], c[i], d[i]), max4(a[i + 1], b[i + 1], c[i + 1], d[i + 1]));
+        return most(max4(a[i], b[i], c[i], d[i]), max4(a[i + 1], b[i + 1], c[i + 1], d[i + 1]));
       },
       histograms.V);
   add(
       [=](std::size_t i) {
-        return std::min(min4(a[i], b[i], c[i], d[i]), min4(a[i + 1], b[i + 1], c[i + 1], d[i + 1]));
+        return least(min4(a[i], b[i], c[i], d[i]), min4(a[i + 1], b[i + 1], c[i + 1], d[i + 1]));
       },
       histograms.V8);
 }
@@ -130,7 +133,8 @@ void add_row(const Layer<Rank>& low, const Layer<Rank>& high, std::size_t j, boo
 /// Adds the faces between material and void that row j of the layer `low` owns.
 template <class Rank>
 void add_void_faces(const Layer<Rank>& low, const Layer<Rank>& high, std::size_t j,
-                    Histogram& histogram) {
+                    Histograms& histograms) {
+  Histogram& histogram = histograms.S_void;
   if (!low.has_void && !high.has_void) return;
   const std::size_t a = low.row(j);
   const std::size_t b = low.row(j + 1);
@@ -141,14 +145,17 @@ void add_void_faces(const Layer<Rank>& low, const Layer<Rank>& high, std::size_t
       add_rank(std::max(rank, low.ranks[a + i + 1]), histogram);
     }
     if ((mask & low.mask[b + i]) == 0) add_rank(std::max(rank, low.ranks[b + i]), histogram);
-    if ((mask & high.mask[a + i]) == 0) add_rank(std::max(rank, high.ranks[a + i]), histogram);
+    if ((mask & high.mask[a + i]) == 0) {
+      add_rank(std::max(rank, high.ranks[a + i]), histograms.Sz_void);
+    }
   }
 }
 
 /// Adds the frame faces that row j of the layer `low` owns, and both frame faces along x and y.
 template <class Rank>
 void add_frame_faces(const Layer<Rank>& low, const Layer<Rank>& high, std::size_t j,
-                     const std::array<bool, 2>& periodic, Histogram& histogram) {
+                     const std::array<bool, 2>& periodic, Histograms& histograms) {
+  Histogram& histogram = histograms.S_frame;
   const std::size_t a = low.row(j);
   if (!low.outside) {
     if (!periodic[0]) {
@@ -161,8 +168,8 @@ void add_frame_faces(const Layer<Rank>& low, const Layer<Rank>& high, std::size_
     }
   }
   // One of the two is outside and has rank 0.
-  if (low.outside) add_ranks(high.ranks.data() + a + 1, low.width, histogram);
-  if (high.outside) add_ranks(low.ranks.data() + a + 1, low.width, histogram);
+  if (low.outside) add_ranks(high.ranks.data() + a + 1, low.width, histograms.Sz_frame);
+  if (high.outside) add_ranks(low.ranks.data() + a + 1, low.width, histograms.Sz_frame);
 }
 
 template <class Rank>
@@ -178,10 +185,33 @@ void fill_histograms(const VoxelBlock& block, const RankTable& table, Histograms
     for (std::size_t j = block.periodic[1] ? 1 : 0; j <= height; ++j) {
       add_row(low, high, j, block.periodic[0], scratch.data(), histograms);
       if (j == 0) continue;  // the row outside owns no face between two voxels of the map
-      add_void_faces(low, high, j, histograms.S_void);
-      add_frame_faces(low, high, j, block.periodic, histograms.S_frame);
+      add_void_faces(low, high, j, histograms);
+      add_frame_faces(low, high, j, block.periodic, histograms);
     }
     std::swap(low, high);
+  }
+}
+
+/// The counts that follow from the histograms.
+void take_counts(const Histograms& h, VoxelCounts& counts) {
+  const auto Fz = white_counts(h.Fz), Sz_void = white_counts(h.Sz_void);
+  const auto Sz_frame = white_counts(h.Sz_frame);
+  counts.C = white_counts(h.C);
+  counts.F = white_counts(h.F);
+  counts.E = white_counts(h.E);
+  counts.V = white_counts(h.V);
+  counts.E4 = white_counts(h.E4);
+  counts.V8 = white_counts(h.V8);
+  counts.S_void = white_counts(h.S_void);
+  counts.S_frame = white_counts(h.S_frame);
+  counts.S_int.resize(counts.C.size());
+  counts.S_axial.resize(counts.C.size());
+  for (std::size_t j = 0; j < counts.C.size(); ++j) {
+    counts.F[j] += Fz[j];
+    counts.S_void[j] += Sz_void[j];
+    counts.S_frame[j] += Sz_frame[j];
+    counts.S_int[j] = 2 * counts.F[j] - 6 * counts.C[j] - counts.S_void[j] - counts.S_frame[j];
+    counts.S_axial[j] = 2 * Fz[j] - 2 * counts.C[j] - Sz_void[j] - Sz_frame[j];
   }
 }
 
@@ -198,20 +228,9 @@ VoxelCounts count_voxels(const VoxelBlock& block, std::span<const double> thresh
     const std::size_t layer =
         static_cast<std::size_t>(block.width[0]) * static_cast<std::size_t>(block.width[1]);
     const std::size_t owned = static_cast<std::size_t>(block.layers) * layer;
-    for (std::size_t i = 0; i < owned; ++i) counts.pixels += block.solid[i] != 0 ? 1 : 0;
+    counts.pixels = material_in(block.solid.first(owned));
   }
-  counts.C = white_counts(histograms.C);
-  counts.F = white_counts(histograms.F);
-  counts.E = white_counts(histograms.E);
-  counts.V = white_counts(histograms.V);
-  counts.E4 = white_counts(histograms.E4);
-  counts.V8 = white_counts(histograms.V8);
-  counts.S_void = white_counts(histograms.S_void);
-  counts.S_frame = white_counts(histograms.S_frame);
-  counts.S_int.resize(thresholds.size());
-  for (std::size_t j = 0; j < thresholds.size(); ++j) {
-    counts.S_int[j] = 2 * counts.F[j] - 6 * counts.C[j] - counts.S_void[j] - counts.S_frame[j];
-  }
+  take_counts(histograms, counts);
   return counts;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "add_squares.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/pixel_map.hpp"
@@ -23,76 +24,70 @@ namespace {
 
 constexpr std::uint64_t weight_sum_limit = std::uint64_t{1} << 32;
 
-/// Adds one particle to the sums, along x innermost.
-template <int Dim>
-void add_square(const std::array<Overlaps, Dim>& overlaps, int width, double density,
-                std::span<const std::int64_t> rounded, RowSums& sums) {
-  const Overlaps& x = overlaps[0];
-  const Overlaps& last = overlaps[Dim - 1];
-  const std::size_t middle = Dim == 3 ? overlaps[1].pixel.size() : 1;
-  for (std::size_t r = 0; r < last.pixel.size(); ++r) {
-    std::uint64_t* row = sums.row(last.pixel[r]);
-    for (std::size_t m = 0; m < middle; ++m) {
-      const double across = Dim == 3 ? last.length[r] * overlaps[1].length[m] : last.length[r];
-      const std::size_t start = Dim == 3 ? static_cast<std::size_t>(overlaps[1].pixel[m]) *
-                                               static_cast<std::size_t>(width)
-                                         : 0;
-      for (std::size_t i = 0; i < x.pixel.size(); ++i) {
-        const double overlap = x.length[i] * across * weight_unit;
-        const std::int64_t weight = std::llrint(overlap * density);
-        std::uint64_t* pixel =
-            row + (start + static_cast<std::size_t>(x.pixel[i])) * sums.components;
-        pixel[0] += static_cast<std::uint64_t>(std::llrint(overlap));
-        pixel[1] += static_cast<std::uint64_t>(weight);
-        for (std::size_t k = 0; k < rounded.size(); ++k) {
-          pixel[2 + k] += static_cast<std::uint64_t>(weight * rounded[k]);
-        }
-      }
-    }
-  }
-}
-
-/// Rows of the map that the particles of this rank touch.
+/// Rows of the map that the particles of this rank may touch.
 template <int Dim>
 RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
                   const PixelScales& scales, const PixelGrid<Dim>& grid) {
   const int rows = grid.layout().pixels[Dim - 1];
-  double low = rows;
-  double high = 0.0;
-  Counters ignored;
-  Square<Dim> square;
-  for (std::size_t i = 0; i < particles.mass.size(); ++i) {
-    if (make_square(particles, i, scales, grid.layout().pixel_size, square, ignored) ==
-        SquareKind::skipped) {
-      continue;
-    }
-    low = std::min(low, square.sides[Dim - 1].low);
-    high = std::max(high, square.sides[Dim - 1].high);
+  const double most = value_limit * grid.layout().pixel_size;  // beyond, a particle is skipped
+  double low = most;
+  double high = -most;
+  for (const double y : particles.position[Dim - 1]) {
+    low = y < low && y > -most ? y : low;
+    high = y > high && y < most ? y : high;
   }
-  const int first = static_cast<int>(std::clamp(std::floor(low), 0.0, static_cast<double>(rows)));
-  const int end = static_cast<int>(std::clamp(std::ceil(high), 0.0, static_cast<double>(rows)));
+  const double reach = 0.5 * scales.max_side;
+  const auto row_at = [&](double y) {
+    return std::clamp(y / grid.layout().pixel_size, 0.0, static_cast<double>(rows));
+  };
+  // One row more at each end: the rounding here is not that of the squares.
+  const int first = std::max(static_cast<int>(std::floor(row_at(low - reach))) - 1, 0);
+  const int end = std::min(static_cast<int>(std::ceil(row_at(high + reach))) + 1, rows);
   return RowSums(first, std::max(end - first, 0), grid.row_size(), components);
+}
+
+/// Adds the particle with number i of a stretch.
+template <int Dim>
+void add_particle(const Squares<Dim>& squares, std::size_t i, const Content& content,
+                  const PixelLayout<Dim>& layout, std::array<Overlaps, Dim>& overlaps,
+                  RowSums& band) {
+  if constexpr (Dim == 2) {
+    if (add_small_square({squares.low[0][i], squares.high[0][i]},
+                         {squares.low[1][i], squares.high[1][i]}, layout.pixels, content, band)) {
+      return;
+    }
+  }
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    const bool periodic = axis + 1 < Dim && layout.periodic[std::min<std::size_t>(axis, Dim - 2)];
+    find_overlaps({squares.low[axis][i], squares.high[axis][i]}, layout.pixels[axis], periodic,
+                  overlaps[axis]);
+  }
+  add_square<Dim>(overlaps, layout.pixels[0], content, band);
 }
 
 template <int Dim>
 RowSums sum_particles(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
                       const PixelScales& scales, const PixelGrid<Dim>& grid, Counters& counters) {
+  constexpr std::size_t stretch = Squares<Dim>::stretch;
   const PixelLayout<Dim>& layout = grid.layout();
   RowSums band = make_band(particles, 2 + values.size(), scales, grid);
-  std::vector<std::int64_t> rounded(values.size());
   std::array<Overlaps, Dim> overlaps;
-  Square<Dim> square;
-  for (std::size_t i = 0; i < particles.mass.size(); ++i) {
-    if (make_square(particles, i, scales, layout.pixel_size, square, counters) ==
-        SquareKind::skipped) {
-      continue;
+  overlaps.fill(make_overlaps(scales.max_side / layout.pixel_size));
+  Squares<Dim> squares;
+  std::vector<std::int64_t> rounded(values.size() * stretch);
+  std::vector<std::int64_t> own(values.size());
+  for (std::size_t first = 0; first < particles.mass.size(); first += stretch) {
+    const std::size_t count = std::min(stretch, particles.mass.size() - first);
+    make_squares(particles, first, count, scales, layout.pixel_size, squares, counters);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      counters.clamped += round_values(values[k], first, count, squares.usable.data(),
+                                       rounded.data() + k * stretch);
     }
-    round_values(values, i, rounded.data(), counters);
-    for (std::size_t axis = 0; axis < Dim; ++axis) {
-      const bool periodic = axis + 1 < Dim && layout.periodic[std::min<std::size_t>(axis, Dim - 2)];
-      find_overlaps(square.sides[axis], layout.pixels[axis], periodic, overlaps[axis]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (squares.usable[i] == 0) continue;
+      for (std::size_t k = 0; k < own.size(); ++k) own[k] = rounded[k * stretch + i];
+      add_particle<Dim>(squares, i, {squares.density[i], own}, layout, overlaps, band);
     }
-    add_square<Dim>(overlaps, layout.pixels[0], square.density, rounded, band);
   }
   return band;
 }

@@ -39,18 +39,19 @@ class DisjointSets {
     Crossings shift;         ///< of the absorbed root from `root`
   };
 
-  explicit DisjointSets(std::size_t nodes) : parent_(nodes), size_(nodes, 1), shift_(nodes) {
-    for (std::size_t i = 0; i < nodes; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  explicit DisjointSets(std::size_t nodes) : nodes_(nodes) {
+    for (std::size_t i = 0; i < nodes; ++i) nodes_[i].parent = static_cast<std::uint32_t>(i);
   }
 
   Place find(std::uint32_t node) {
     Crossings total;
-    while (parent_[node] != node) {
-      const std::uint32_t above = parent_[node];
-      shift_[node] = shift_[node] + shift_[above];  // zero for a root
-      parent_[node] = parent_[above];
-      total = total + shift_[node];
-      node = parent_[node];
+    while (nodes_[node].parent != node) {
+      Node& here = nodes_[node];
+      const Node& above = nodes_[here.parent];
+      here.shift = here.shift + above.shift;  // zero for a root
+      here.parent = above.parent;
+      total = total + here.shift;
+      node = here.parent;
     }
     return {node, total};
   }
@@ -64,20 +65,35 @@ class DisjointSets {
     std::uint32_t root = at_a.root;
     std::uint32_t absorbed = at_b.root;
     Crossings shift = apart;
-    if (size_[root] < size_[absorbed]) {
+    if (nodes_[root].size < nodes_[absorbed].size) {
       std::swap(root, absorbed);
       shift = Crossings{} - shift;
     }
-    parent_[absorbed] = root;
-    shift_[absorbed] = shift;
-    size_[root] += size_[absorbed];
+    nodes_[absorbed].parent = root;
+    nodes_[absorbed].shift = shift;
+    nodes_[root].size += nodes_[absorbed].size;
     return {root, absorbed, {}, shift};
   }
 
+  /// Hangs every node directly below its root.
+  void flatten() {
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+      const Place at = find(i);
+      nodes_[i].parent = at.root;
+      nodes_[i].shift = at.from_root;
+    }
+  }
+
+  /// The root of a node and its crossings from there, after flatten().
+  Place place(std::uint32_t node) const { return {nodes_[node].parent, nodes_[node].shift}; }
+
  private:
-  std::vector<std::uint32_t> parent_;
-  std::vector<std::uint32_t> size_;
-  std::vector<Crossings> shift_;
+  struct Node {
+    std::uint32_t parent = 0;
+    std::uint32_t size = 1;
+    Crossings shift{};
+  };
+  std::vector<Node> nodes_;
 };
 
 }  // namespace poreshock

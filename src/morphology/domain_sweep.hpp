@@ -3,6 +3,7 @@
 // to the layer.
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -41,6 +42,29 @@ struct BorderEvent {
   std::uint32_t marks;
 };
 
+/// Which of eight active neighbours a pixel has to join, as bits, for every pattern of them. Bit k
+/// stands for the k-th around the pixel: right, up right, up, ... The others already belong to the
+/// domain of one of these, because they touch one another.
+inline std::array<std::uint8_t, 256> needed_joins(bool corners) {
+  std::array<std::uint8_t, 256> needed{};
+  for (unsigned pattern = 0; pattern < 256; ++pattern) {
+    const auto active = [&](unsigned k) { return (pattern >> (k % 8) & 1) != 0; };
+    for (unsigned k = 0; k < 8; ++k) {
+      const bool face = k % 2 == 0;
+      if (!active(k) || (!face && !corners)) continue;
+      // The neighbour before this one in the circle that touches it, if there is one.
+      const bool touches_before =
+          corners ? active(k + 7) || (face && active(k + 6)) : active(k + 6) && active(k + 7);
+      if (!touches_before) needed[pattern] |= static_cast<std::uint8_t>(1 << k);
+    }
+    // A closed circle has no first one.
+    const unsigned any = corners ? pattern : pattern & 0x55;
+    if (needed[pattern] == 0 && any != 0)
+      needed[pattern] = static_cast<std::uint8_t>(any & (~any + 1));
+  }
+  return needed;
+}
+
 /// Domains of one slab while pixels turn, level by level. Domains without a pixel on a border are
 /// counted here; of the others only the joins that no other rank can undo.
 class Sweep {
@@ -53,6 +77,7 @@ class Sweep {
         slab_(slab),
         corners_(corners),
         reach_y_(slab.ny > 1 || slab.periodic_y ? 1 : 0),
+        needed_(needed_joins(corners)),
         first_border_(first_border),
         sets_(slab.stored_size()),
         active_(slab.stored_size(), 0),
@@ -69,6 +94,10 @@ class Sweep {
     if (z < slab_.layers) ++changes.pixels[level];
     if (on_border(z)) border_[pixel] = pixel;
     if (marks_[pixel] != 0) tell(pixel, 0, marks_[pixel], level);
+    if (reach_y_ == 0 && x > 0 && x + 1 < slab_.nx && z > 0 && z + 1 < slab_.layers) {
+      join_inside(pixel, level);
+      return;
+    }
     for (int dz = -1; dz <= 1; ++dz) {
       // Edges within the upper neighbour's row are counted there.
       if (z + dz < 0 || z + dz >= slab_.stored || (z >= slab_.layers && dz == 0)) continue;
@@ -83,6 +112,20 @@ class Sweep {
   }
 
  private:
+  /// Joins where all eight neighbours lie in owned rows and no side is crossed, in 2-D.
+  void join_inside(std::uint32_t pixel, std::size_t level) {
+    const std::int64_t nx = slab_.nx;
+    const std::array<std::int64_t, 8> around = {1, nx + 1, nx, nx - 1, -1, -nx - 1, -nx, 1 - nx};
+    unsigned pattern = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      pattern |= static_cast<unsigned>(active_[static_cast<std::size_t>(pixel + around[k])]) << k;
+    }
+    for (unsigned left = needed_[pattern]; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      join(pixel, static_cast<std::uint32_t>(pixel + around[k]), {}, level);
+    }
+  }
+
   bool on_frame(int x, int y, int z) const {
     return (slab_.first && z == 0) || (slab_.last && z == slab_.layers - 1) ||
            (!slab_.periodic_x && (x == 0 || x == slab_.nx - 1)) ||
@@ -166,6 +209,7 @@ class Sweep {
   const Slab& slab_;
   bool corners_;
   int reach_y_;
+  std::array<std::uint8_t, 256> needed_;
   std::uint32_t first_border_;
   DisjointSets sets_;
   std::vector<std::uint8_t> active_;

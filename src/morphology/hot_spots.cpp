@@ -88,24 +88,20 @@ struct SlabDomains {
 };
 
 /// Number of the set of each run, sets in the order of their roots.
-std::vector<std::uint32_t> number_sets(Labels& labels, std::size_t runs, std::size_t& count) {
+std::vector<std::uint32_t> number_sets(const Labels& labels, std::size_t runs, std::size_t& count) {
   std::vector<std::uint32_t> number(runs);
   count = 0;
-  for (std::size_t r = 0; r < runs; ++r) {
-    if (labels.sets.find(static_cast<std::uint32_t>(r)).root == r) {
-      number[r] = static_cast<std::uint32_t>(count++);
-    }
+  for (std::uint32_t r = 0; r < runs; ++r) {
+    if (labels.sets.place(r).root == r) number[r] = static_cast<std::uint32_t>(count++);
   }
-  for (std::size_t r = 0; r < runs; ++r) {
-    number[r] = number[labels.sets.find(static_cast<std::uint32_t>(r)).root];
-  }
+  for (std::uint32_t r = 0; r < runs; ++r) number[r] = number[labels.sets.place(r).root];
   return number;
 }
 
 /// Adds every run to its set, and lists the runs on borders.
 void add_runs(const Slab& slab, const Runs& runs, std::span<const double> values,
               double inverse_quantum, const Frame& frame, std::span<const std::uint32_t> number,
-              Labels& labels, std::vector<Part>& domains, std::vector<BorderRun>& border) {
+              const Labels& labels, std::vector<Part>& domains, std::vector<BorderRun>& border) {
   const auto ny = static_cast<std::size_t>(slab.ny);
   for (std::size_t row = 0; row + 1 < runs.starts.size(); ++row) {
     const auto y = static_cast<std::int64_t>(row % ny);
@@ -114,7 +110,7 @@ void add_runs(const Slab& slab, const Runs& runs, std::span<const double> values
     const bool high_border = z >= slab.layers;
     for (std::size_t r = runs.starts[row]; r < runs.starts[row + 1]; ++r) {
       const Run& run = runs.runs[r];
-      const Crossings at = labels.sets.find(static_cast<std::uint32_t>(r)).from_root;
+      const Crossings at = labels.sets.place(static_cast<std::uint32_t>(r)).from_root;
       if (!high_border) {
         const double* row_values = &values[row * static_cast<std::size_t>(slab.nx)];
         add(part_of(run, y, z + frame.first_layer, row_values, inverse_quantum, frame), at, frame,
@@ -129,15 +125,16 @@ void add_runs(const Slab& slab, const Runs& runs, std::span<const double> values
 }
 
 SlabDomains collect(const Slab& slab, const Runs& runs, std::span<const double> values,
-                    double inverse_quantum, const Frame& frame, Labels& labels) {
+                    double inverse_quantum, const Frame& frame, const Labels& labels) {
   std::size_t count = 0;
   const std::vector<std::uint32_t> number = number_sets(labels, runs.runs.size(), count);
   std::vector<Part> domains(count);
   SlabDomains result;
   add_runs(slab, runs, values, inverse_quantum, frame, number, labels, domains, result.border);
+  const auto winds = find_winding(labels, runs.runs.size());
   for (std::size_t r = 0; r < runs.runs.size(); ++r) {
-    if (labels.sets.find(static_cast<std::uint32_t>(r)).root == r) {
-      domains[number[r]].winds = labels.winds[r];
+    if (labels.sets.place(static_cast<std::uint32_t>(r)).root == r) {
+      domains[number[r]].winds = winds[r];
     }
   }
   std::vector<std::int64_t> open(count, -1);
@@ -167,16 +164,18 @@ std::vector<Part> join_parts(const std::vector<Part>& parts, std::vector<BorderR
     if (a.place != b.place) continue;
     join(static_cast<std::size_t>(a.part), static_cast<std::size_t>(b.part), a.at - b.at, labels);
   }
+  settle(labels);
+  const auto winds = find_winding(labels, parts.size());
   std::vector<Part> domains(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto place = labels.sets.find(static_cast<std::uint32_t>(p));
+    const auto place = labels.sets.place(static_cast<std::uint32_t>(p));
     add(parts[p], place.from_root, frame, domains[place.root]);
   }
   std::vector<Part> result;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (labels.sets.find(static_cast<std::uint32_t>(p)).root != p) continue;
-    domains[p].winds[0] |= labels.winds[p][0];
-    domains[p].winds[1] |= labels.winds[p][1];
+    if (labels.sets.place(static_cast<std::uint32_t>(p)).root != p) continue;
+    domains[p].winds[0] |= winds[p][0];
+    domains[p].winds[1] |= winds[p][1];
     result.push_back(domains[p]);
   }
   return result;

@@ -5,14 +5,22 @@ namespace poreshock {
 void join(std::size_t a, std::size_t b, Crossings step, Labels& labels) {
   const auto joined =
       labels.sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), step);
-  auto& winds = labels.winds[joined.root];
-  if (joined.root == joined.absorbed) {
-    winds[0] |= static_cast<std::uint8_t>(joined.winding.x != 0 ? 1 : 0);
-    winds[1] |= static_cast<std::uint8_t>(joined.winding.y != 0 ? 1 : 0);
-    return;
+  const bool winds = joined.root == joined.absorbed && !(joined.winding == Crossings{});
+  if (winds) labels.windings.push_back({joined.root, joined.winding});
+}
+
+void settle(Labels& labels) {
+  labels.sets.flatten();
+}
+
+std::vector<std::array<std::uint8_t, 2>> find_winding(const Labels& labels, std::size_t count) {
+  std::vector<std::array<std::uint8_t, 2>> winds(count);
+  for (const Labels::Winding& path : labels.windings) {
+    auto& at_root = winds[labels.sets.place(path.run).root];
+    at_root[0] |= static_cast<std::uint8_t>(path.crossings.x != 0 ? 1 : 0);
+    at_root[1] |= static_cast<std::uint8_t>(path.crossings.y != 0 ? 1 : 0);
   }
-  winds[0] |= labels.winds[joined.absorbed][0];
-  winds[1] |= labels.winds[joined.absorbed][1];
+  return winds;
 }
 
 namespace {
@@ -75,6 +83,7 @@ void label(const Slab& slab, const Runs& runs, bool corners, Labels& labels) {
       }
     }
   }
+  settle(labels);
 }
 
 }  // namespace poreshock

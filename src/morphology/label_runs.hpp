@@ -12,18 +12,28 @@
 
 namespace poreshock {
 
-/// Sets of runs that touch, and around which axes each set winds (at any of its roots so far).
+/// Sets of runs that touch, and the paths found in them that wind.
 struct Labels {
+  struct Winding {
+    std::uint32_t run;
+    Crossings crossings;
+  };
   DisjointSets sets;
-  std::vector<std::array<std::uint8_t, 2>> winds;
+  std::vector<Winding> windings;
 
-  explicit Labels(std::size_t count) : sets(count), winds(count) {}
+  explicit Labels(std::size_t count) : sets(count) {}
 };
 
 /// Joins the sets of two runs; b is reached from a with `step` crossings.
 void join(std::size_t a, std::size_t b, Crossings step, Labels& labels);
 
-/// Joins all runs of a slab that touch, over corners or over faces only.
+/// Joins all runs of a slab that touch, over corners or over faces only, and settles the labels.
 void label(const Slab& slab, const Runs& runs, bool corners, Labels& labels);
+
+/// Makes labels.sets.place() right once all is joined.
+void settle(Labels& labels);
+
+/// Around which axes the sets wind, at their roots. After settle().
+std::vector<std::array<std::uint8_t, 2>> find_winding(const Labels& labels, std::size_t count);
 
 }  // namespace poreshock

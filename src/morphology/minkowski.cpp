@@ -1,5 +1,6 @@
 #include "poreshock/morphology/minkowski.hpp"
 
+#include <numbers>
 #include <string>
 
 #include "poreshock/core/error.hpp"
@@ -73,6 +74,10 @@ Minkowski functionals(const PixelCounts& counts) {
   Minkowski result;
   result.A = mean([&](std::size_t j) { return c.F[j]; });
   result.L = mean([&](std::size_t j) { return c.B_int[j]; });
+  result.L_crofton = mean([&](std::size_t j) {
+    const double diagonal = static_cast<double>(c.D_int[j]) / std::numbers::sqrt2;
+    return std::numbers::pi / 8.0 * (static_cast<double>(c.B_int[j]) + diagonal);
+  });
   result.chi = mean([&](std::size_t j) { return c.V[j] - c.E[j] + c.F[j]; });
   result.chi4 = mean([&](std::size_t j) { return c.E[j] - 3 * c.F[j] + c.V4[j]; });
   return result;
@@ -84,6 +89,8 @@ Minkowski3 functionals(const VoxelCounts& counts) {
   Minkowski3 result;
   result.V = mean([&](std::size_t j) { return c.C[j]; });
   result.S = mean([&](std::size_t j) { return c.S_int[j]; });
+  result.S_crofton =
+      mean([&](std::size_t j) { return 2.0 / 3.0 * static_cast<double>(c.S_int[j]); });
   result.M = mean([&](std::size_t j) { return 3 * c.C[j] - 2 * c.F[j] + c.E[j]; });
   result.chi = mean([&](std::size_t j) { return c.F[j] - c.C[j] - c.E[j] + c.V[j]; });
   result.chi6 = mean([&](std::size_t j) { return c.F[j] - 5 * c.C[j] + c.E4[j] - c.V8[j]; });

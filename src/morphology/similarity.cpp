@@ -121,15 +121,18 @@ double end_of_loading(const Process& process) {
   return process.time[best];
 }
 
-Window loading_window(const Process& a, const Process& b) {
+Window loading_window(const Process& a, const Process& b, Until until) {
   const double begin = std::max(a.time.front(), b.time.front());
   const double last = std::min(a.time.back(), b.time.back());
-  const double end = std::min(last, std::max(end_of_loading(a), end_of_loading(b)));
+  const double loaded_a = end_of_loading(a);
+  const double loaded_b = end_of_loading(b);
+  const double loaded =
+      until == Until::slower ? std::max(loaded_a, loaded_b) : std::min(loaded_a, loaded_b);
+  const double end = std::min(last, loaded);
   if (begin < end) return {begin, end};
   throw InputError("the runs share no time span: records go from " + seconds(a.time.front()) +
                    " to " + seconds(a.time.back()) + " and from " + seconds(b.time.front()) +
-                   " to " + seconds(b.time.back()) + "; loading ends at " +
-                   seconds(std::max(end_of_loading(a), end_of_loading(b))));
+                   " to " + seconds(b.time.back()) + "; loading ends at " + seconds(loaded));
 }
 
 Path distances(const Path& a, const Path& b, Window window) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,78 +32,107 @@ struct Interval {
   double high = 0.0;
 };
 
-/// A particle in pixels and typical densities.
+/// Squares of a stretch of particles, as columns, so that their arithmetic vectorises.
 template <int Dim>
-struct Square {
-  std::array<Interval, Dim> sides;
-  double density = 0.0;
+struct Squares {
+  static constexpr std::size_t stretch = 256;
+  std::array<std::array<double, stretch>, Dim> low, high;  ///< pixels
+  std::array<double, stretch> density;                     ///< typical densities
+  std::array<std::uint8_t, stretch> usable;
 };
 
-enum class SquareKind { usable, skipped };
-
-/// The square of particle i. The arithmetic knows neither rank nor row, so that all ranks agree.
+/// Makes the squares of particles first ... first + count - 1, at most a stretch. The arithmetic
+/// knows neither rank nor row, so that all ranks agree.
 template <int Dim>
-SquareKind make_square(const PixelSources<Dim>& particles, std::size_t i, const PixelScales& scales,
-                       double pixel_size, Square<Dim>& square, Counters& counters) {
-  const double volume = particles.mass[i] / particles.density[i];
-  // cbrt of the library may differ by one unit in the last place between systems; within one
-  // system it is a pure function, which is all that equal bits on any number of ranks need.
-  const double natural_side = Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
-  const double ratio = particles.density[i] / scales.density;
-  bool usable = natural_side > 0.0 && std::isfinite(natural_side) && ratio > 0.0;
-  const double half = 0.5 * (std::min(natural_side, scales.max_side) / pixel_size);
+void make_squares(const PixelSources<Dim>& particles, std::size_t first, std::size_t count,
+                  const PixelScales& scales, double pixel_size, Squares<Dim>& squares,
+                  Counters& counters) {
+  const double* mass = particles.mass.data() + first;
+  const double* density = particles.density.data() + first;
+  std::array<double, Squares<Dim>::stretch> sides, half;
+  std::int64_t capped = 0, clamped = 0, skipped = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double volume = mass[i] / density[i];
+    // cbrt of the library may differ by one unit in the last place between systems; within one
+    // system it is a pure function, which is all that equal bits on any number of ranks need.
+    const double side = Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
+    const double ratio = density[i] / scales.density;
+    sides[i] = side;
+    half[i] = 0.5 * ((side < scales.max_side ? side : scales.max_side) / pixel_size);
+    squares.density[i] = ratio < density_limit ? ratio : density_limit;
+    const bool usable = (side > 0.0) & (side <= std::numeric_limits<double>::max()) & (ratio > 0.0);
+    squares.usable[i] = usable ? 1 : 0;
+  }
   for (std::size_t axis = 0; axis < Dim; ++axis) {
-    const double centre = particles.position[axis][i] / pixel_size;
-    // Keeps the numbers of the pixels far inside 64 bits.
-    usable = usable && std::abs(centre) < value_limit;
-    square.sides[axis] = {centre - half, centre + half};
+    const double* position = particles.position[axis].data() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double centre = position[i] / pixel_size;
+      // Keeps the numbers of the pixels far inside 64 bits.
+      const bool near = std::abs(centre) < value_limit;
+      squares.usable[i] = static_cast<std::uint8_t>(squares.usable[i] & (near ? 1 : 0));
+      squares.low[axis][i] = centre - half[i];
+      squares.high[axis][i] = centre + half[i];
+    }
   }
-  if (!usable) {
-    ++counters.skipped;
-    return SquareKind::skipped;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool counted = squares.usable[i] != 0;
+    capped += counted && sides[i] > scales.max_side ? 1 : 0;
+    clamped += counted && density[i] / scales.density > density_limit ? 1 : 0;
+    skipped += counted ? 0 : 1;
   }
-  if (natural_side > scales.max_side) ++counters.capped;
-  if (ratio > density_limit) ++counters.clamped;
-  square.density = std::min(ratio, density_limit);
-  return SquareKind::usable;
+  counters.capped += capped;
+  counters.clamped += clamped;
+  counters.skipped += skipped;
 }
 
-/// Overlap of a square with the pixels along one axis: lengths in pixels and the pixels' numbers.
+/// Overlap of a square with the pixels along one axis: lengths in pixels and the pixels' numbers,
+/// in the first `count` entries.
 struct Overlaps {
+  std::size_t count = 0;
   std::vector<int> pixel;
   std::vector<double> length;
 };
 
+/// Room for the overlaps of a square of this side in pixels.
+inline Overlaps make_overlaps(double side) {
+  const auto most = static_cast<std::size_t>(side) + 3;
+  return {0, std::vector<int>(most), std::vector<double>(most)};
+}
+
 inline void find_overlaps(const Interval& side, int pixels, bool periodic, Overlaps& overlaps) {
-  overlaps.pixel.clear();
-  overlaps.length.clear();
   auto begin = static_cast<std::int64_t>(std::floor(side.low));
   auto end = static_cast<std::int64_t>(std::ceil(side.high));
   if (!periodic) {
     begin = std::max<std::int64_t>(begin, 0);
     end = std::min<std::int64_t>(end, pixels);
   }
+  std::size_t count = 0;
   for (std::int64_t i = begin; i < end; ++i) {
     const auto at = static_cast<double>(i);
-    const double length = std::min(side.high, at + 1.0) - std::max(side.low, at);
-    const std::int64_t wrapped = periodic ? ((i % pixels) + pixels) % pixels : i;
-    overlaps.pixel.push_back(static_cast<int>(wrapped));
-    overlaps.length.push_back(length);
+    // A division takes longer than all the rest; most pixels need none.
+    const bool inside = i >= 0 && i < pixels;
+    const std::int64_t wrapped = inside ? i : ((i % pixels) + pixels) % pixels;
+    overlaps.pixel[count] = static_cast<int>(wrapped);
+    overlaps.length[count] = std::min(side.high, at + 1.0) - std::max(side.low, at);
+    ++count;
   }
+  overlaps.count = count;
 }
 
-/// Rounds the values of particle i to integers.
-inline void round_values(std::span<const PixelValues> values, std::size_t i, std::int64_t* rounded,
-                         Counters& counters) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const double scaled = values[k].value[i] / values[k].scale * value_unit;
+/// Rounds one value of a stretch of particles to integers; returns how many were held.
+inline std::int64_t round_values(const PixelValues& values, std::size_t first, std::size_t count,
+                                 const std::uint8_t* usable, std::int64_t* rounded) {
+  std::int64_t held_back = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double scaled = values.value[first + i] / values.scale * value_unit;
     const bool inside = std::abs(scaled) <= value_limit;
-    if (!inside) ++counters.clamped;
+    held_back += !inside && usable[i] != 0 ? 1 : 0;
     // NaN fails every comparison and becomes 0.
     const double held =
         inside ? scaled : (scaled > 0.0 ? value_limit : (scaled < 0.0 ? -value_limit : 0.0));
-    rounded[k] = std::llrint(held);
+    rounded[i] = std::llrint(held);
   }
+  return held_back;
 }
 
 }  // namespace poreshock

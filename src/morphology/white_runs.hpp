@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,14 @@ inline std::uint64_t white_bits(const double* values, const std::uint8_t* solid,
     flags[i] =
         static_cast<std::uint8_t>((values[i] >= threshold ? 1 : 0) & (solid[i] != 0 ? 1 : 0));
   }
+  for (std::size_t i = count; i < 64; ++i) flags[i] = 0;
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < count; ++i) bits |= std::uint64_t{flags[i]} << i;
+  for (std::size_t k = 0; k < 8; ++k) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, flags + 8 * k, sizeof(eight));
+    // Each byte is 0 or 1; the product moves the lowest bit of byte i to bit 56 + i.
+    bits |= ((eight * 0x0102040810204080U) >> 56) << (8 * k);
+  }
   return bits;
 }
 

@@ -142,6 +142,8 @@ void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string
 }
 
 CheckpointHeader checkpoint_header(const std::string& path, MPI_Comm communicator) {
+  // HDF5 itself may not survive a damaged file, so that nothing of it is read before.
+  verify(path, communicator);
   Hdf5File file = Hdf5File::open(path, communicator);
   check_kind(file);
   CheckpointHeader header;
@@ -171,7 +173,6 @@ std::string latest_checkpoint(const std::string& folder, MPI_Comm communicator, 
     const std::string path = names.substr(at, end - at);
     at = end + 1;
     try {
-      verify(path, communicator);
       checkpoint_header(path, communicator);
       return path;
     } catch (const std::runtime_error& failure) {

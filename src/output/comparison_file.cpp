@@ -30,8 +30,17 @@ std::vector<Part> parts_of(const Comparison& comparison, const ComparedRun& run,
           {folder + "d_p_same", {references}, "1", run.same_distance},
           {folder + "best_threshold", {references}, unit, run.best_threshold},
           {folder + "d_p_best", {references}, "1", run.best_distance},
-          {folder + "time", {times}, "s", run.time},
+          {folder + "time", {times}, comparison.time_unit, run.time},
           {folder + "d", {references, times}, "1", run.pattern_distance}};
+}
+
+std::vector<Part> parts_of(const SeedGroup& group, const std::string& unit,
+                           const std::string& folder) {
+  const std::uint64_t references = group.best_threshold.mean.size();
+  return {{folder + "best_threshold", {references}, unit, group.best_threshold.mean},
+          {folder + "best_threshold_deviation", {references}, unit, group.best_threshold.deviation},
+          {folder + "d_p_best", {references}, "1", group.best_distance.mean},
+          {folder + "d_p_best_deviation", {references}, "1", group.best_distance.deviation}};
 }
 
 void write_hdf5(const std::string& path, const Comparison& comparison) {
@@ -52,6 +61,17 @@ void write_hdf5(const std::string& path, const Comparison& comparison) {
       parts.push_back(std::move(part));
     }
   }
+  for (std::size_t g = 0; g < comparison.groups.size(); ++g) {
+    const std::string name = "seeds_" + std::to_string(g + 1);
+    std::string members;
+    for (const std::size_t r : comparison.groups[g].runs) {
+      members.append(members.empty() ? "run_" : ", run_").append(std::to_string(r + 1));
+    }
+    spec.attributes.push_back({name, members});
+    for (Part& part : parts_of(comparison.groups[g], comparison.unit, "/" + name + "/")) {
+      parts.push_back(std::move(part));
+    }
+  }
   for (const Part& part : parts) {
     spec.datasets.push_back({part.path, NumberType::float64, part.shape, part.unit, {}});
   }
@@ -62,8 +82,9 @@ void write_hdf5(const std::string& path, const Comparison& comparison) {
 
 std::string csv_text(const Comparison& comparison) {
   const std::string& unit = comparison.unit;
-  std::string text = "run,reference_threshold [" + unit + "],begin [s],end [s],d_p_same [1]," +
-                     "best_threshold [" + unit + "],d_p_best [1]\n";
+  std::string text = "run,reference_threshold [" + unit + "],begin [" + comparison.time_unit +
+                     "],end [" + comparison.time_unit + "],d_p_same [1]," + "best_threshold [" +
+                     unit + "],d_p_best [1]\n";
   for (const ComparedRun& run : comparison.runs) {
     for (std::size_t r = 0; r < comparison.reference_threshold.size(); ++r) {
       std::array<char, 256> line{};

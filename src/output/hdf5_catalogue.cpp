@@ -106,7 +106,7 @@ std::size_t number_size(NumberType type) {
 std::optional<AttributeValue> Hdf5File::attribute(const std::string& name,
                                                   const std::string& object) {
   std::optional<AttributeValue> value;
-  agree(attempt([&] { value = read_attribute(handle_, object, name); }), communicator_);
+  agree_here(attempt([&] { value = read_attribute(handle_, object, name); }));
   return value;
 }
 
@@ -133,26 +133,24 @@ std::string Hdf5File::text(const std::string& name) {
 
 std::vector<DatasetInfo> Hdf5File::datasets() {
   std::vector<DatasetInfo> infos;
-  agree(attempt([&] {
-          for (const std::string& path : dataset_paths(handle_)) {
-            infos.push_back(read_info(handle_, path));
-          }
-        }),
-        communicator_);
+  agree_here(attempt([&] {
+    for (const std::string& path : dataset_paths(handle_)) {
+      infos.push_back(read_info(handle_, path));
+    }
+  }));
   return infos;
 }
 
 DatasetInfo Hdf5File::dataset(const std::string& path) {
   DatasetInfo info;
-  agree(attempt([&] {
-          // A path through a missing group is an error of H5Lexists, hence the plain attempt to
-          // open.
-          const hid_t found = H5Dopen2(handle_, path.c_str(), H5P_DEFAULT);
-          if (found < 0) throw InputError(path_ + ": has no dataset " + path);
-          H5Dclose(found);
-          info = read_info(handle_, path);
-        }),
-        communicator_);
+  agree_here(attempt([&] {
+    // A path through a missing group is an error of H5Lexists, hence the plain attempt to
+    // open.
+    const hid_t found = H5Dopen2(handle_, path.c_str(), H5P_DEFAULT);
+    if (found < 0) throw InputError(path_ + ": has no dataset " + path);
+    H5Dclose(found);
+    info = read_info(handle_, path);
+  }));
   return info;
 }
 

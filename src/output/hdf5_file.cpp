@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 
 #include "hdf5_handle.hpp"
@@ -118,7 +119,10 @@ herr_t move_piece(const RowTransfer& rows, std::uint64_t piece, hid_t dataset, h
 }  // namespace
 
 Hdf5File::Hdf5File(std::string path, MPI_Comm communicator, bool writing)
-    : path_(std::move(path)), communicator_(communicator), writing_(writing) {
+    : path_(std::move(path)),
+      communicator_(communicator),
+      writing_(writing),
+      exceptions_(std::uncaught_exceptions()) {
   open_handle(writing ? partial_name(path_) : path_);
 }
 
@@ -150,16 +154,24 @@ Hdf5File Hdf5File::open(const std::string& path, MPI_Comm communicator) {
 }
 
 void Hdf5File::open_handle(const std::string& path) {
-  agree(attempt([&] {
-          const Handle access = parallel_access(communicator_);
-          handle_ = H5Fopen(path.c_str(), writing_ ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.get());
-          check_hdf5(handle_ < 0 ? -1 : 0, "open " + path);
-        }),
-        communicator_);
+  agree_here(attempt([&] {
+    const Handle access = parallel_access(communicator_);
+    handle_ = H5Fopen(path.c_str(), writing_ ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.get());
+    check_hdf5(handle_ < 0 ? -1 : 0, "open " + path);
+  }));
+}
+
+void Hdf5File::agree_here(const Outcome& outcome) {
+  failed_together_ = true;
+  agree(outcome, communicator_);
+  failed_together_ = false;
 }
 
 Hdf5File::~Hdf5File() {
   if (handle_ < 0) return;
+  // Closing is collective: a rank that fails alone would wait here for the others for ever.
+  const bool alone = std::uncaught_exceptions() > exceptions_ && !failed_together_;
+  if (alone && size(communicator_) > 1) return;
   H5Fclose(handle_);
   if (writing_ && rank(communicator_) == 0) unlink(partial_name(path_).c_str());
 }
@@ -170,37 +182,33 @@ void Hdf5File::transfer(const std::string& dataset, std::uint64_t first_row, Num
   RowTransfer rows{{}, type, first_row, 0, 1, static_cast<std::byte*>(data), writing_};
   std::int64_t pieces = 0;
   // All that can go wrong on one rank alone is checked before the ranks depend on each other.
-  agree(attempt([&] {
-          const hid_t found = H5Dopen2(handle_, dataset.c_str(), H5P_DEFAULT);
-          if (found < 0) throw InputError(path_ + ": has no dataset " + dataset);
-          opened.emplace(found, H5Dclose, "open " + dataset);
-          const Handle space(H5Dget_space(found), H5Sclose, "read the shape of " + dataset);
-          rows.layout = row_layout(space.get());
-          split(path_ + ": " + dataset, count, piece_bytes, rows);
-          pieces = static_cast<std::int64_t>((rows.count + rows.piece - 1) / rows.piece);
-        }),
-        communicator_);
+  agree_here(attempt([&] {
+    const hid_t found = H5Dopen2(handle_, dataset.c_str(), H5P_DEFAULT);
+    if (found < 0) throw InputError(path_ + ": has no dataset " + dataset);
+    opened.emplace(found, H5Dclose, "open " + dataset);
+    const Handle space(H5Dget_space(found), H5Sclose, "read the shape of " + dataset);
+    rows.layout = row_layout(space.get());
+    split(path_ + ": " + dataset, count, piece_bytes, rows);
+    pieces = static_cast<std::int64_t>((rows.count + rows.piece - 1) / rows.piece);
+  }));
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &pieces, 1, MPI_INT64_T, MPI_MAX, communicator_),
             "MPI_Allreduce");
-  agree(attempt([&] {
-          const Handle properties(H5Pcreate(H5P_DATASET_XFER), H5Pclose,
-                                  "make transfer properties");
-          if (size(communicator_) > 1) {
-            check_hdf5(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), "write together");
-          }
-          for (std::int64_t p = 0; p < pieces; ++p) {
-            check_hdf5(
-                move_piece(rows, static_cast<std::uint64_t>(p), opened->get(), properties.get()),
-                (writing_ ? "write " : "read ") + dataset + " of " + path_);
-          }
-        }),
-        communicator_);
+  for (std::int64_t p = 0; p < pieces; ++p) {
+    agree_here(attempt([&] {
+      const Handle properties(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "make transfer properties");
+      if (size(communicator_) > 1) {
+        check_hdf5(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), "write together");
+      }
+      check_hdf5(move_piece(rows, static_cast<std::uint64_t>(p), opened->get(), properties.get()),
+                 (writing_ ? "write " : "read ") + dataset + " of " + path_);
+    }));
+  }
 }
 
 void Hdf5File::finish() {
   const hid_t handle = handle_;
   handle_ = -1;
-  agree(attempt([&] { check_hdf5(H5Fclose(handle), "close " + path_); }), communicator_);
+  agree_here(attempt([&] { check_hdf5(H5Fclose(handle), "close " + path_); }));
   if (!writing_) return;
   const std::string partial = partial_name(path_);
   write_seal(partial, communicator_);

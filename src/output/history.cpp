@@ -97,7 +97,7 @@ std::string history_line(const HistoryRow& row, int dimension) {
 
 HistoryWriter::HistoryWriter(const std::string& path, int dimension, MPI_Comm communicator,
                              std::optional<std::int64_t> restart_step)
-    : dimension_(dimension), communicator_(communicator) {
+    : path_(path), dimension_(dimension), communicator_(communicator) {
   on_rank_zero(communicator_, [&] {
     if (restart_step && std::filesystem::exists(path)) {
       write_text(path, kept_rows(path, dimension, *restart_step));
@@ -105,17 +105,26 @@ HistoryWriter::HistoryWriter(const std::string& path, int dimension, MPI_Comm co
       end_ = file_->size();
     } else {
       file_ = std::make_unique<FileDescriptor>(path, O_WRONLY | O_CREAT | O_TRUNC);
-      append(history_header(dimension));
+      append({});
     }
   });
 }
 
 void HistoryWriter::write(const HistoryRow& row) {
-  on_rank_zero(communicator_, [&] { append(history_line(row, dimension_)); });
+  on_rank_zero(communicator_, [&] { append(history_line(row, dimension_) + '\n'); });
+}
+
+void HistoryWriter::sync() {
+  on_rank_zero(communicator_, [&] { file_->sync(); });
 }
 
 void HistoryWriter::append(const std::string& line) {
-  const std::string text = line + '\n';
+  if (!file_->is_at(path_)) {
+    file_ = std::make_unique<FileDescriptor>(path_, O_WRONLY | O_CREAT | O_EXCL);
+    end_ = 0;
+  }
+  // In one piece with the first row, so that no file is left without its header.
+  const std::string text = (end_ == 0 ? history_header(dimension_) + '\n' : "") + line;
   file_->write(end_, reinterpret_cast<const std::byte*>(text.data()), text.size());
   end_ += text.size();
 }

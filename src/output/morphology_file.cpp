@@ -30,9 +30,9 @@ void add_curves(const MorphologyRecord& record, RecordTable& table) {
     check_length(record, name, values.size(), width, "thresholds");
     table.curves.series[name] = integer_series(values, width);
   }
-  for (const auto& [name, values] : record.functionals) {
+  for (const auto& [name, values, unit] : record.functionals) {
     check_length(record, name, values.size(), width, "thresholds");
-    table.curves.series[name] = {"1", width, false, {}, values};
+    table.curves.series[name] = {unit, width, false, {}, values};
   }
 }
 
@@ -109,6 +109,7 @@ MorphologyCurves read_morphology(const std::string& path, const std::string& fie
   MorphologyCurves curves;
   curves.unit = file.dataset(prefix + "threshold").unit;
   curves.pixel = file.number("pixel");
+  curves.scene = file.text("scene");
   curves.threshold = file.read_all<double>(prefix + "threshold");
   curves.time = file.read_all<double>(prefix + "time");
   const std::vector<std::uint64_t> shape = {curves.time.size(), curves.threshold.size()};

@@ -68,6 +68,13 @@ std::uint64_t FileDescriptor::size() const {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
+bool FileDescriptor::is_at(const std::string& path) const {
+  struct stat here {};
+  struct stat there {};
+  return fstat(descriptor_, &here) == 0 && stat(path.c_str(), &there) == 0 &&
+         here.st_dev == there.st_dev && here.st_ino == there.st_ino;
+}
+
 void FileDescriptor::read(std::uint64_t offset, std::byte* data, std::size_t count) const {
   while (count > 0) {
     const ssize_t got = pread(descriptor_, data, count, static_cast<off_t>(offset));

@@ -58,6 +58,8 @@ void write_timings(const std::string& path, const Timings& timings, MPI_Comm com
                        ",\n  \"wall_seconds\": " + json(timings.wall_seconds) +
                        ",\n  \"steps\": " + std::to_string(timings.steps) +
                        ",\n  \"particle_steps\": " + std::to_string(timings.particle_steps) +
+                       ",\n  \"sleeping_steps\": " + std::to_string(timings.sleeping_steps) +
+                       ",\n  \"bytes_per_particle\": " + json(timings.bytes_per_particle) +
                        ",\n  \"rate_per_core\": " + json(timings.rate_per_core) +
                        ",\n  \"phases\": [";
     for (std::size_t i = 0; i < timings.phases.size(); ++i) {

@@ -85,9 +85,13 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
                   MPI_Comm communicator) {
   const int ranks = size(communicator);
   const std::size_t bytes = bytes_per_particle(particles);
+  const int me = rank(communicator);
   std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(ranks));
+  std::vector<std::uint32_t> holes;
   for (std::size_t p = 0; p < destination.size(); ++p) {
-    if (destination[p] >= 0) leaving[destination[p]].push_back(static_cast<std::uint32_t>(p));
+    if (destination[p] == me) continue;
+    holes.push_back(static_cast<std::uint32_t>(p));
+    if (destination[p] >= 0) leaving[destination[p]].push_back(holes.back());
   }
   std::vector<std::int64_t> sent, received(static_cast<std::size_t>(ranks));
   for (const auto& indices : leaving) sent.push_back(static_cast<std::int64_t>(indices.size()));
@@ -115,7 +119,7 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
   check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
             "MPI_Waitall for particles");
   MPI_Type_free(&unit);
-  resize(particles, 0);
+  remove(std::move(holes), particles);
   for (int r = 0; r < ranks; ++r) {
     unpack(arrived[r].data(), static_cast<std::size_t>(received[r]), particles);
   }

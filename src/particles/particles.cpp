@@ -10,6 +10,11 @@ void resize(Particles<Dim>& particles, std::size_t count) {
 }
 
 template <int Dim>
+void release_spare(Particles<Dim>& particles) {
+  for_each_column(particles, [](std::string_view, int, auto& column) { column.shrink_to_fit(); });
+}
+
+template <int Dim>
 void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles) {
   for_each_column(particles, [&](std::string_view, int, auto& column) {
     auto sorted = std::remove_reference_t<decltype(column)>(order.size());
@@ -54,6 +59,8 @@ template void resize<2>(Particles<2>&, std::size_t);
 template void resize<3>(Particles<3>&, std::size_t);
 template void reorder<2>(const std::vector<std::uint32_t>&, Particles<2>&);
 template void reorder<3>(const std::vector<std::uint32_t>&, Particles<3>&);
+template void release_spare<2>(Particles<2>&);
+template void release_spare<3>(Particles<3>&);
 template std::size_t bytes_per_particle<2>(const Particles<2>&);
 template std::size_t bytes_per_particle<3>(const Particles<3>&);
 template void pack<2>(const Particles<2>&, const std::vector<std::uint32_t>&,

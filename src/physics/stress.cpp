@@ -1,7 +1,7 @@
 #include "poreshock/physics/stress.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 #include "stress_point.hpp"
 
@@ -31,8 +31,8 @@ namespace {
 template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
 [[gnu::flatten]] void update_block(const J2MieGruneisen& material,
                                    const StressSettings<Dim>& all_settings, double dt,
-                                   const Columns<Dim>& all_columns, std::size_t first,
-                                   std::size_t count, StressReport& report) {
+                                   const Columns<Dim>& all_columns, std::size_t count,
+                                   StressReport& report) {
   BlockResults results;
   // Local copies: the compiler sees that stores through the columns cannot change them.
   const StressSettings<Dim> settings = all_settings;
@@ -44,21 +44,69 @@ template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
   m.spall = material.spall;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    update_particle<Dim, Kinematic, Spall, Conserving, Averaging>(m, settings, dt, c, first + k, k,
+    update_particle<Dim, Kinematic, Spall, Conserving, Averaging>(m, settings, dt, c, k, k,
                                                                   results);
   }
   reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }
 
-/// Calls visit(material index, first, count) for blocks of stored particles of one material.
+/// Copies of the particles of one block side by side, where their columns have them scattered.
+template <int Dim>
+struct BlockCopy {
+  static constexpr int most_columns = 7 + 2 * symmetric_size<Dim> + Dim;
+  alignas(64) double values[most_columns][block_size];
+  std::int32_t failed[block_size];
+};
+
+/// The columns of a block of particles: in place where they lie side by side, else copied.
+template <int Dim>
+Columns<Dim> fetch(const Columns<Dim>& particles, const std::uint32_t* places, std::size_t count,
+                   BlockCopy<Dim>& copy) {
+  bool adjacent = true;
+  for (std::size_t k = 1; k < count; ++k) adjacent = adjacent && places[k] == places[0] + k;
+  Columns<Dim> c{};
+  int column = 0;
+  for_each_pair<Dim>(particles, c, [&](double* source, double*& local, bool) {
+    if (source == nullptr || adjacent) {
+      local = source == nullptr ? nullptr : source + places[0];
+      return;
+    }
+    local = copy.values[column++];
+    for (std::size_t k = 0; k < count; ++k) local[k] = source[places[k]];
+  });
+  c.failed = particles.failed;
+  if (c.failed != nullptr && adjacent) c.failed += places[0];
+  if (c.failed != nullptr && !adjacent) {
+    for (std::size_t k = 0; k < count; ++k) copy.failed[k] = particles.failed[places[k]];
+    c.failed = copy.failed;
+  }
+  return c;
+}
+
+/// Puts the changed columns of a copied block back.
+template <int Dim>
+void put_back(const Columns<Dim>& columns, const std::uint32_t* places, std::size_t count,
+              const BlockCopy<Dim>& copy, const Columns<Dim>& particles) {
+  if (columns.density != copy.values[0]) return;
+  Columns<Dim> c = columns;
+  for_each_pair<Dim>(particles, c, [&](double* target, double*& local, bool changes) {
+    if (target == nullptr || !changes) return;
+    for (std::size_t k = 0; k < count; ++k) target[places[k]] = local[k];
+  });
+  if (particles.failed == nullptr) return;
+  for (std::size_t k = 0; k < count; ++k) particles.failed[places[k]] = copy.failed[k];
+}
+
+/// Calls visit(material index, first, count) for blocks of particles of one material.
 template <int Dim, class Visitor>
-void for_each_block(const Particles<Dim>& particles, Visitor&& visit) {
+void for_each_block(const Particles<Dim>& particles, std::span<const std::uint32_t> places,
+                    Visitor&& visit) {
   std::size_t first = 0;
-  while (first < particles.size()) {
-    const std::int32_t material = particles.material[first];
+  while (first < places.size()) {
+    const std::int32_t material = particles.material[places[first]];
     std::size_t last = first + 1;
-    const std::size_t end = std::min(particles.size(), first + block_size);
-    while (last < end && particles.material[last] == material) ++last;
+    const std::size_t end = std::min(places.size(), first + block_size);
+    while (last < end && particles.material[places[last]] == material) ++last;
     visit(material, first, last - first);
     first = last;
   }
@@ -66,44 +114,48 @@ void for_each_block(const Particles<Dim>& particles, Visitor&& visit) {
 
 template <int Dim, bool Kinematic, bool Spall>
 void update_all(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
-                const StepData<Dim>& step, double dt, Particles<Dim>& particles,
-                StressReport& report) {
-  const Columns<Dim> c = columns<Dim>(step, particles);
+                const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
+                Particles<Dim>& particles, StressReport& report) {
+  const Columns<Dim> all = particle_columns<Dim>(particles);
+  BlockCopy<Dim> copy;
   const bool conserving = settings.thermal == Thermal::conserving;
-  for_each_block<Dim>(particles, [&](std::int32_t material, std::size_t first, std::size_t count) {
-    std::visit(
-        [&](const auto& m) {
-          if (settings.averaging) {
-            conserving ? update_block<Dim, Kinematic, Spall, true, true>(m, settings, dt, c, first,
-                                                                         count, report)
-                       : update_block<Dim, Kinematic, Spall, false, true>(m, settings, dt, c, first,
-                                                                          count, report);
-          } else {
-            conserving ? update_block<Dim, Kinematic, Spall, true, false>(m, settings, dt, c, first,
-                                                                          count, report)
-                       : update_block<Dim, Kinematic, Spall, false, false>(m, settings, dt, c,
-                                                                           first, count, report);
-          }
-        },
-        materials[static_cast<std::size_t>(material)]);
-  });
+  for_each_block<Dim>(particles, places,
+                      [&](std::int32_t material, std::size_t first, std::size_t count) {
+                        Columns<Dim> c = fetch<Dim>(all, places.data() + first, count, copy);
+                        set_step_columns<Dim>(step, first, c);
+                        std::visit(
+                            [&](const auto& m) {
+                              if (settings.averaging) {
+                                conserving ? update_block<Dim, Kinematic, Spall, true, true>(
+                                                 m, settings, dt, c, count, report)
+                                           : update_block<Dim, Kinematic, Spall, false, true>(
+                                                 m, settings, dt, c, count, report);
+                              } else {
+                                conserving ? update_block<Dim, Kinematic, Spall, true, false>(
+                                                 m, settings, dt, c, count, report)
+                                           : update_block<Dim, Kinematic, Spall, false, false>(
+                                                 m, settings, dt, c, count, report);
+                              }
+                            },
+                            materials[static_cast<std::size_t>(material)]);
+                        put_back<Dim>(c, places.data() + first, count, copy, all);
+                      });
 }
 
 }  // namespace
 
 template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
-                   const StepData<Dim>& step, double dt, Particles<Dim>& particles,
-                   StressReport& report) {
-  report.dt_limit = std::numeric_limits<double>::infinity();
+                   const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
+                   Particles<Dim>& particles, StressReport& report) {
   if (particles.options.failed) {
     particles.options.back_stress
-        ? update_all<Dim, true, true>(materials, settings, step, dt, particles, report)
-        : update_all<Dim, false, true>(materials, settings, step, dt, particles, report);
+        ? update_all<Dim, true, true>(materials, settings, step, dt, places, particles, report)
+        : update_all<Dim, false, true>(materials, settings, step, dt, places, particles, report);
   } else {
     particles.options.back_stress
-        ? update_all<Dim, true, false>(materials, settings, step, dt, particles, report)
-        : update_all<Dim, false, false>(materials, settings, step, dt, particles, report);
+        ? update_all<Dim, true, false>(materials, settings, step, dt, places, particles, report)
+        : update_all<Dim, false, false>(materials, settings, step, dt, places, particles, report);
   }
 }
 
@@ -111,15 +163,23 @@ template <int Dim>
 void initialise_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                        Particles<Dim>& particles, StressReport& report) {
   // A step of no length: all rates are zero, so only pressure, viscosity and the limit are set.
+  constexpr std::size_t chunk = 4096;
   StepData<Dim> still;
-  still.resize(particles.size(), settings.averaging);
-  update_stress<Dim>(materials, settings, still, 0.0, particles, report);
+  resize_ordered(chunk, settings.averaging, still);
+  std::vector<std::uint32_t> places;
+  for (std::size_t first = 0; first < particles.size(); first += chunk) {
+    places.resize(std::min(chunk, particles.size() - first));
+    std::iota(places.begin(), places.end(), static_cast<std::uint32_t>(first));
+    update_stress<Dim>(materials, settings, still, 0.0, places, particles, report);
+  }
 }
 
 template void update_stress<2>(const std::vector<Material>&, const StressSettings<2>&,
-                               const StepData<2>&, double, Particles<2>&, StressReport&);
+                               const StepData<2>&, double, std::span<const std::uint32_t>,
+                               Particles<2>&, StressReport&);
 template void update_stress<3>(const std::vector<Material>&, const StressSettings<3>&,
-                               const StepData<3>&, double, Particles<3>&, StressReport&);
+                               const StepData<3>&, double, std::span<const std::uint32_t>,
+                               Particles<3>&, StressReport&);
 template void initialise_stress<2>(const std::vector<Material>&, const StressSettings<2>&,
                                    Particles<2>&, StressReport&);
 template void initialise_stress<3>(const std::vector<Material>&, const StressSettings<3>&,

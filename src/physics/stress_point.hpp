@@ -10,7 +10,7 @@
 
 namespace poreshock {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t block_size = 64;
 
 /// A step may change no velocity difference across a particle by more than this strain.
 constexpr double largest_strain_increment = 0.2;
@@ -49,21 +49,40 @@ inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double 
   return {pressure, wave < strain ? wave : strain};
 }
 
-/// Columns of the particles and of the step as raw pointers, for the vectorised loop.
+/// Columns of the particles and of the step as raw pointers, for the vectorised loop; null where a
+/// column is not in use.
 template <int Dim>
 struct Columns {
-  double *density, *pressure, *viscous_pressure, *energy, *strain, *work;
-  const double *mass, *heat, *dilatation_end, *dilatation_mid;
+  double *density, *pressure, *viscous_pressure, *energy, *strain, *work, *mass;
   std::array<double*, symmetric_size<Dim>> deviator, back_stress;
+  std::array<double*, Dim> velocity;
+  std::int32_t* failed;
+  const double *heat, *dilatation_end, *dilatation_mid;
   std::array<const double*, Dim * Dim> gradient;
   std::array<const double*, rate_size<Dim>> rate;
-  std::array<const double*, Dim> velocity;
-  std::int32_t* failed;
 };
 
+/// Calls visit(pointer of a, pointer of b, whether the update changes the column) for all columns
+/// of the particles that are doubles.
+template <int Dim, class Visit>
+void for_each_pair(const Columns<Dim>& a, Columns<Dim>& b, Visit&& visit) {
+  visit(a.density, b.density, true);
+  visit(a.pressure, b.pressure, true);
+  visit(a.viscous_pressure, b.viscous_pressure, true);
+  visit(a.energy, b.energy, true);
+  visit(a.strain, b.strain, true);
+  visit(a.work, b.work, true);
+  visit(a.mass, b.mass, false);
+  for (int k = 0; k < symmetric_size<Dim>; ++k) {
+    visit(a.deviator[k], b.deviator[k], true);
+    visit(a.back_stress[k], b.back_stress[k], true);
+  }
+  for (int k = 0; k < Dim; ++k) visit(a.velocity[k], b.velocity[k], false);
+}
+
 template <int Dim>
-Columns<Dim> columns(const StepData<Dim>& step, Particles<Dim>& p) {
-  Columns<Dim> c;
+Columns<Dim> particle_columns(Particles<Dim>& p) {
+  Columns<Dim> c{};
   c.density = p.density.data();
   c.pressure = p.pressure.data();
   c.viscous_pressure = p.viscous_pressure.data();
@@ -71,18 +90,23 @@ Columns<Dim> columns(const StepData<Dim>& step, Particles<Dim>& p) {
   c.strain = p.plastic_strain.data();
   c.work = p.plastic_work.data();
   c.mass = p.mass.data();
-  c.heat = step.heat.data();
-  c.dilatation_end = step.dilatation_end.data();
-  c.dilatation_mid = step.dilatation_mid.data();
   for (int k = 0; k < symmetric_size<Dim>; ++k) {
     c.deviator[k] = p.deviator[k].data();
-    c.back_stress[k] = p.back_stress[k].data();
+    c.back_stress[k] = p.options.back_stress ? p.back_stress[k].data() : nullptr;
   }
-  for (int k = 0; k < Dim * Dim; ++k) c.gradient[k] = step.gradient[k].data();
-  for (int k = 0; k < rate_size<Dim>; ++k) c.rate[k] = step.rate[k].data();
   for (int k = 0; k < Dim; ++k) c.velocity[k] = p.velocity[k].data();
-  c.failed = p.failed.data();
+  c.failed = p.options.failed ? p.failed.data() : nullptr;
   return c;
+}
+
+/// Points the step's columns to entry `first`.
+template <int Dim>
+void set_step_columns(const StepData<Dim>& step, std::size_t first, Columns<Dim>& c) {
+  c.heat = step.heat.data() + first;
+  c.dilatation_end = step.dilatation_end.data() + first;
+  c.dilatation_mid = step.dilatation_mid.data() + first;
+  for (int k = 0; k < Dim * Dim; ++k) c.gradient[k] = step.gradient[k].data() + first;
+  for (int k = 0; k < rate_size<Dim>; ++k) c.rate[k] = step.rate[k].data() + first;
 }
 
 /// s : D of a deviator and a rate.

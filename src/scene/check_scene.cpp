@@ -14,6 +14,7 @@ namespace {
 
 constexpr double tolerance = 1e-9;
 constexpr double most_cells = std::numeric_limits<int>::max();
+constexpr double most_beats = 1e9;
 constexpr double greatest_void_fraction = 0.65;
 constexpr int least_lateral_cells = 4;
 constexpr int least_shock_cells = 8;
@@ -195,6 +196,12 @@ void check_beat(double value, const char* path, bool may_be_zero, double beat, R
 
 void check_output(const Scene& scene, Report& report) {
   const double beat = scene.output.beat;
+  if (good(report, {"output.beat", "time.end"}) && scene.time.end / beat > most_beats) {
+    add_problem("output.beat",
+                "found " + plain_number(beat) + " s, allowed at least time.end / 1e9 = " +
+                    plain_number(scene.time.end / most_beats) + " s",
+                report);
+  }
   check_beat(scene.output.snapshot, "output.snapshot", true, beat, report);
   check_beat(scene.output.history, "output.history", false, beat, report);
   check_beat(scene.morphology.every, "morphology.every", true, beat, report);
@@ -246,6 +253,9 @@ void check_pixel(const Scene& scene, Report& report) {
 void check_morphology(const Scene& scene, Report& report) {
   const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
   sites ? check_site(scene, report) : check_pixel(scene, report);
+  if (scene.dimension == 3 && scene.morphology.length == BoundaryLength::isoline) {
+    add_problem("morphology.length", "found \"isoline\", allowed \"pixels\" in 3-D", report);
+  }
   if (!good(report, {"morphology.every", "morphology.fields"})) return;
   if (scene.morphology.every > 0.0 && scene.morphology.fields.empty()) {
     add_problem("morphology.fields", "missing, give at least one field, or every = 0", report);

@@ -46,6 +46,7 @@ void visit_boundary(Visitor& visitor, Scene& scene) {
 
 template <typename Visitor>
 void visit_material(Visitor& visitor, MaterialParameters& material) {
+  constexpr Range up_to_20{.low = 0.0, .high = 20.0};
   constexpr Range below_half{.low = 0.0, .high = 0.5, .below_high = true};
   const Names<PlasticHeat> heats{{"work", PlasticHeat::work},
                                  {"dissipation", PlasticHeat::dissipation}};
@@ -69,9 +70,9 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
   visitor.number("c0", material.c0,
                  {positive, "m/s", "bulk sound speed, of Us = c0 + lambda Up", Need::required});
   visitor.number("lambda", material.lambda,
-                 {{.low = 1.0}, "", "slope of Us = c0 + lambda Up", Need::required});
+                 {{.low = 1.0, .high = 20.0}, "", "slope of Us = c0 + lambda Up", Need::required});
   visitor.number("gamma", material.gamma,
-                 {not_negative, "", "Grueneisen coefficient, constant", Need::required});
+                 {up_to_20, "", "Grueneisen coefficient, constant", Need::required});
   visitor.number("cv", material.cv, {positive, "J/(kg K)", "specific heat", Need::required});
   visitor.number("conductivity", material.conductivity,
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
@@ -134,8 +135,9 @@ void visit_sample(Visitor& visitor, Scene& scene) {
   choice(visitor, "porosity_definition", sample.porosity_definition, definitions,
          {"void volume over all volume, or over solid volume"});
   visitor.number("void_radius", sample.void_radius, {not_negative, "m", "median radius of a void"});
-  visitor.number("void_spread", sample.void_spread,
-                 {not_negative, "", "standard deviation of ln(radius); 0 = all equal"});
+  visitor.number(
+      "void_spread", sample.void_spread,
+      {{.low = 0.0, .high = 2.0}, "", "standard deviation of ln(radius); 0 = all equal"});
   visitor.number("ligament", sample.ligament,
                  {not_negative, "m", "least solid between two voids; not with overlap"});
   visitor.number("keep_out", sample.keep_out,
@@ -245,6 +247,7 @@ void visit_time(Visitor& visitor, TimeControl& time) {
                   "",
                   "share of a cell that a wave may cross in a step"});
   integer(visitor, "max_steps", time.max_steps, {not_negative, "", "0 = no limit"});
+  visitor.flag("sleep", time.sleep, {"true where rows that no wave has reached only move"});
 }
 
 template <typename Visitor>
@@ -281,6 +284,16 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
       "pixel", morphology.pixel,
       {positive, "m",
        "cell times 1/8 ... 8, by default the cell; lagrangian: cell/particles_per_cell"});
+  const Names<MapVoids> voids{{"black", MapVoids::black},
+                              {"white", MapVoids::white},
+                              {"fill", MapVoids::fill},
+                              {"exclude", MapVoids::exclude}};
+  choice(visitor, "voids", morphology.voids, voids,
+         {"in chi: cold, hot, like the nearest material, or left out"});
+  const Names<BoundaryLength> lengths{{"pixels", BoundaryLength::pixels},
+                                      {"isoline", BoundaryLength::isoline}};
+  choice(visitor, "length", morphology.length, lengths,
+         {"of boundaries: L and L_crofton from pixels; isoline adds L_isoline, in 2-D"});
   std::vector<std::string> names;
   for (const MorphologyField& field : morphology.fields) names.push_back(field.name);
   visitor.names("fields", names, morphology_fields, {"fields to measure"});

@@ -23,7 +23,7 @@ template <int Dim>
 std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
   std::vector<GrainCell> cells;
   for_each_run(
-      sim.particles, sim.cells, *sim.grid,
+      sim.particles, sim.cells, *sim.grid, awake_rows(sim.cells, *sim.grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t*) {
         cells.push_back({row, lateral, sim.particles.grain[*first]});
       },
@@ -57,6 +57,7 @@ void make_fields(int colours, Simulation<Dim>& sim) {
 
 /// The particles of the chosen cells.
 void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrder& result) {
+  result.awake = all.awake;
   result.order.clear();
   result.start.resize(all.start.size());
   for (std::size_t c = 0; c + 1 < all.start.size(); ++c) {
@@ -71,6 +72,7 @@ void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrd
 /// Gives the particles of all cells to the fields of their colours, in the same order.
 void split(const CellOrder& cells, const std::vector<std::int32_t>& grain, GrainFields& all) {
   for (VelocityField& field : all.fields) {
+    field.cells.awake = cells.awake;
     field.cells.order.clear();
     field.cells.start.resize(cells.start.size());
   }

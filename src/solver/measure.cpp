@@ -1,28 +1,38 @@
 #include "poreshock/solver/measure.hpp"
 
+#include <cmath>
+
+#include "poreshock/core/error.hpp"
 #include "poreshock/morphology/analysis.hpp"
 #include "poreshock/morphology/domains.hpp"
+#include "poreshock/morphology/isoline.hpp"
+#include "poreshock/morphology/voids.hpp"
 
 namespace poreshock {
 
 namespace {
 
+template <class Counts>
+void append_arrays(const Counts& counts, MorphologyRecord& record) {
+  record.pixels = counts.pixels;
+  for_each_count(counts, [&](std::string_view name, const std::vector<std::int64_t>& array) {
+    record.counts.emplace_back(std::string(name), array);
+  });
+}
+
 void append_counts(const PixelCounts& c, MorphologyRecord& record) {
-  record.pixels = c.pixels;
-  record.counts = {{"F", c.F}, {"E", c.E},         {"V", c.V},           {"V4", c.V4},
-                   {"D", c.D}, {"B_int", c.B_int}, {"B_void", c.B_void}, {"B_frame", c.B_frame}};
+  append_arrays(c, record);
   const Minkowski m = functionals(c);
-  record.functionals = {{"A", m.A}, {"L", m.L}, {"chi", m.chi}, {"chi4", m.chi4}};
+  record.functionals = {
+      {"A", m.A}, {"L", m.L}, {"L_crofton", m.L_crofton}, {"chi", m.chi}, {"chi4", m.chi4}};
 }
 
 // The vertex count holds the name V, so the volume functional is spelt out.
 void append_counts(const VoxelCounts& c, MorphologyRecord& record) {
-  record.pixels = c.pixels;
-  record.counts = {{"C", c.C},         {"F", c.F},           {"E", c.E},
-                   {"V", c.V},         {"E4", c.E4},         {"V8", c.V8},
-                   {"S_int", c.S_int}, {"S_void", c.S_void}, {"S_frame", c.S_frame}};
+  append_arrays(c, record);
   const Minkowski3 m = functionals(c);
-  record.functionals = {{"volume", m.V}, {"S", m.S}, {"M", m.M}, {"chi", m.chi}, {"chi6", m.chi6}};
+  record.functionals = {{"volume", m.V}, {"S", m.S},     {"S_crofton", m.S_crofton},
+                        {"M", m.M},      {"chi", m.chi}, {"chi6", m.chi6}};
 }
 
 void append_domains(const DomainCounts& d, MorphologyRecord& record) {
@@ -31,7 +41,61 @@ void append_domains(const DomainCounts& d, MorphologyRecord& record) {
                                              {"n_B_frame", d.n_B_frame},
                                              {"white_winding", d.white_winding},
                                              {"black_winding", d.black_winding}});
-  record.functionals.emplace_back("chi_paper", chi_of_domains(d));
+  record.functionals.push_back({"chi_paper", chi_of_domains(d)});
+}
+
+std::vector<double>& curve(const std::string& name, MorphologyRecord& record) {
+  for (Curve& found : record.functionals) {
+    if (found.name == name) return found.values;
+  }
+  throw SystemError("a record of morphology has no " + name);
+}
+
+Voids voids_of(MapVoids voids) {
+  switch (voids) {
+    case MapVoids::white:
+      return Voids::white;
+    case MapVoids::fill:
+      return Voids::fill;
+    case MapVoids::exclude:
+      return Voids::exclude;
+    case MapVoids::black:
+      break;
+  }
+  return Voids::black;
+}
+
+/// Replaces chi and its dual where voids are not black, which is what the counts hold.
+template <int Dim>
+void treat_voids(const PixelField<Dim>& map, std::size_t field, MapVoids voids,
+                 MPI_Comm communicator, MorphologyRecord& record) {
+  if (voids == MapVoids::black) return;
+  EulerDensity density =
+      euler_density<Dim>(map, field, record.threshold, voids_of(voids), communicator);
+  curve("chi", record) = std::move(density.corners);
+  curve(Dim == 2 ? "chi4" : "chi6", record) = std::move(density.faces);
+}
+
+void append_isoline(const PixelField<2>& map, std::size_t field, MPI_Comm communicator,
+                    MorphologyRecord& record) {
+  Curve length{"L_isoline", isoline_lengths(map, field, record.threshold, communicator)};
+  for (double& value : length.values) {
+    value = record.pixels > 0 ? value / static_cast<double>(record.pixels) : 0.0;
+  }
+  record.functionals.push_back(std::move(length));
+}
+
+/// Beside each functional that counts pixels to the power -k, the same per metre to that power.
+template <int Dim>
+void append_physical(double pixel, MorphologyRecord& record) {
+  std::vector<std::pair<std::string, int>> names = {{"L", 1}, {"chi", 2}};
+  if (Dim == 3) names = {{"S", 1}, {"M", 2}, {"chi", 3}};
+  for (const auto& [name, power] : names) {
+    Curve physical{name + "_physical", curve(name, record),
+                   power == 1 ? "1/m" : "1/m^" + std::to_string(power)};
+    for (double& value : physical.values) value /= std::pow(pixel, power);
+    record.functionals.push_back(std::move(physical));
+  }
 }
 
 /// Columns of the list of hot spots, still empty.
@@ -79,6 +143,13 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
   record.unit = unit;
   record.threshold = what.thresholds;
   append_counts(count<Dim>(map, field, what.thresholds, communicator), record);
+  treat_voids<Dim>(map, field, morphology.voids, communicator, record);
+  if constexpr (Dim == 2) {
+    if (morphology.length == BoundaryLength::isoline) {
+      append_isoline(map, field, communicator, record);
+    }
+  }
+  append_physical<Dim>(map.layout.pixel_size, record);
   if (morphology.domains) {
     append_domains(count_domains<Dim>(map, field, what.thresholds, Joining::corners, communicator),
                    record);

@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::int64_t storage_interval = 20;
 
+/// Cost of a particle that only moves, to that of one that is computed.
+constexpr double sleeping_weight = 0.07;
+
 template <int Dim>
 int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shape,
            double inverse_cell) {
@@ -114,7 +117,12 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
     ++count[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, shape, inverse_cell))];
   }
   sum(count, sim.communicator);
-  const std::vector<double> weights(count.begin(), count.end());
+  std::vector<double> weights(count.begin(), count.end());
+  const RowRange awake = sim.cells.awake;  // of the last step
+  for (int row = 0; row < shape.rows; ++row) {
+    const bool asleep = row < awake.first || row >= awake.last;
+    weights[static_cast<std::size_t>(row)] *= asleep ? sleeping_weight : 1.0;
+  }
   std::vector<int> starts = partition_rows(weights, size(sim.communicator), slab_limits(shape));
   if (sim.grid) {
     const double now = heaviest(weights, sim.grid->starts());

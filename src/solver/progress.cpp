@@ -76,16 +76,21 @@ std::string progress_row(const Clock& clock, double end, const EnergyStatus& ene
   return text;
 }
 
-Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progress& progress,
-                      MPI_Comm communicator) {
+Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t particles,
+                      const Progress& progress, MPI_Comm communicator) {
   Timings timings;
   timings.ranks = size(communicator);
   timings.wall_seconds = MPI_Wtime() - progress.start_wall;
   timings.steps = clock.step - progress.first_step;
   timings.particle_steps = sum(progress.particle_steps, communicator);
+  timings.sleeping_steps = sum(progress.sleeping_steps, communicator);
   timings.rate_per_core = timings.wall_seconds > 0.0 ? static_cast<double>(timings.particle_steps) /
                                                            (timings.wall_seconds * timings.ranks)
                                                      : 0.0;
+  const std::int64_t memory = sum(peak_memory() - progress.start_memory, communicator);
+  const std::int64_t all = sum(particles, communicator);
+  timings.bytes_per_particle =
+      all > 0 ? static_cast<double>(memory) / static_cast<double>(all) : 0.0;
   timings.phases = gather_phases(phases, communicator);
   return timings;
 }
@@ -103,6 +108,16 @@ std::string timings_table(const Timings& timings) {
       "%lld steps in %.1f s on %d ranks: %.2f million particle-steps per second per core\n",
       static_cast<long long>(timings.steps), timings.wall_seconds, timings.ranks,
       timings.rate_per_core * 1e-6);
+  table += line;
+  if (timings.sleeping_steps > 0) {
+    std::snprintf(line, sizeof line,
+                  "%.0f %% of them in rows that no wave had reached, which only move\n",
+                  100.0 * static_cast<double>(timings.sleeping_steps) /
+                      static_cast<double>(timings.particle_steps));
+    table += line;
+  }
+  std::snprintf(line, sizeof line, "at most %.0f bytes per particle beyond the empty program\n",
+                timings.bytes_per_particle);
   return table + line;
 }
 

@@ -1,7 +1,6 @@
 #include "poreshock/solver/records.hpp"
 
-#include <cstring>
-
+#include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/output/morphology_file.hpp"
@@ -82,10 +81,14 @@ void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
                                    scene.morphology, shift, sim.communicator));
   }
   const std::int64_t number = record_number(sim);
-  write_morphology(
-      recorder.folder + "/" + morphology_name(number),
-      {number, sim.clock.step, sim.clock.time, sim.scene_text, {{"pixel", scene.morphology.pixel}}},
-      records, sim.communicator);
+  const RecordStamp stamp = {
+      number, sim.clock.step, sim.clock.time, sim.scene_text, {{"pixel", scene.morphology.pixel}}};
+  const std::string name = morphology_name(number);
+  const auto write = [path = recorder.folder + "/" + name, stamp, records,
+                      communicator = sim.communicator] {
+    write_morphology(path, stamp, records, communicator);
+  };
+  write_or_wait({name, write}, recorder.backlog, sim.communicator);
 }
 
 template <int Dim>
@@ -95,9 +98,13 @@ void write_profile_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Profile profile = measure_profile(sim, floored);
   sim.ledger.guards.temperature += floored;
   const std::int64_t number = record_number(sim);
-  write_profile(recorder.folder + "/" + profile_name(number),
-                {number, sim.clock.step, sim.clock.time, sim.scene_text}, profile,
-                sim.communicator);
+  const RecordStamp stamp = {number, sim.clock.step, sim.clock.time, sim.scene_text};
+  const std::string name = profile_name(number);
+  const auto write = [path = recorder.folder + "/" + name, stamp, profile,
+                      communicator = sim.communicator] {
+    write_profile(path, stamp, profile, communicator);
+  };
+  write_or_wait({name, write}, recorder.backlog, sim.communicator);
 }
 
 template <int Dim>
@@ -116,7 +123,8 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   row.dt = sim.clock.allowed;
   row.wall_force = mean_wall_force(sim.ledger, Dim, row.time, sim.communicator);
   mark_row(Dim, row.time, sim.ledger);
-  recorder.history->write(row);
+  const auto write = [history = recorder.history, row] { history->write(row); };
+  write_or_wait({"a row of history.csv", write}, recorder.backlog, sim.communicator);
   if (!recorder.first_total) recorder.first_total = row.total;
   recorder.last_row = row;
 }
@@ -124,11 +132,34 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 template <int Dim>
 void write_snapshot_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::snapshot);
-  const std::int64_t floored =
-      write_snapshot<Dim>(recorder.folder + "/" + snapshot_name(record_number(sim)),
-                          snapshot_input(sim), sim.communicator);
-  if (rank(sim.communicator) == 0) sim.ledger.guards.temperature += floored;
-  write_xdmf(recorder.folder, sim.communicator);
+  const std::string name = snapshot_name(record_number(sim));
+  const auto write = [&] {
+    const std::int64_t floored =
+        write_snapshot<Dim>(recorder.folder + "/" + name, snapshot_input(sim), sim.communicator);
+    if (rank(sim.communicator) == 0) sim.ledger.guards.temperature += floored;
+  };
+  write_or_leave_out({name, write}, recorder.backlog, sim.communicator);
+  const auto list = [folder = recorder.folder, communicator = sim.communicator] {
+    write_xdmf(folder, communicator);
+  };
+  write_or_wait({"snapshots.xdmf", list}, recorder.backlog, sim.communicator);
+}
+
+/// The last record of a run is what it was made for: without it the run has not come to its end.
+template <int Dim>
+void finish_records(const std::string& last_snapshot, MPI_Comm communicator,
+                    Recorder<Dim>& recorder) {
+  Backlog& backlog = recorder.backlog;
+  const bool whole = catch_up(backlog, communicator) &&
+                     (backlog.left_out.empty() || backlog.left_out.back() != last_snapshot);
+  if (!whole) {
+    throw SystemError("the end is reached, but its last records cannot be written: " +
+                      (backlog.reason.empty() ? last_snapshot + " did not fit" : backlog.reason) +
+                      "; make room and compute the last part again with --restart latest, the " +
+                      "newest checkpoint is " + backlog.newest_checkpoint);
+  }
+  collect_morphology(recorder.folder, communicator);
+  collect_profiles(recorder.folder, communicator);
 }
 
 }  // namespace
@@ -151,7 +182,7 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
                             std::unique_ptr<PixelGrid<Dim>> pixels, const Simulation<Dim>& sim) {
   Recorder<Dim> recorder;
   recorder.folder = folder;
-  recorder.history = std::make_unique<HistoryWriter>(
+  recorder.history = std::make_shared<HistoryWriter>(
       folder + "/history.csv", Dim, sim.communicator,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
   recorder.pixels = std::move(pixels);
@@ -164,6 +195,7 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Output& output = sim.scene.output;
   const std::int64_t beat = sim.clock.beat;
   const bool all = last || sim.clock.step == 0;
+  catch_up(recorder.backlog, sim.communicator);
   // All others come before the history: what they floor is counted in its row.
   if (recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat))) {
     write_morphology_record(sim, recorder);
@@ -174,9 +206,7 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
     write_snapshot_record(sim, recorder);
   const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
   if (all || due(history, beat)) write_history(sim, recorder);
-  if (!last) return;
-  collect_morphology(recorder.folder, sim.communicator);
-  collect_profiles(recorder.folder, sim.communicator);
+  if (last) finish_records(snapshot_name(record_number(sim)), sim.communicator, recorder);
 }
 
 template <int Dim>
@@ -192,46 +222,42 @@ void checkpoint_when_due(double wall_seconds, Simulation<Dim>& sim, Recorder<Dim
     now = now || late == 1;
   }
   if (!now || sim.clock.step == recorder.last_checkpoint_step) return;
-  checkpoint_now(sim, recorder);
   recorder.last_checkpoint_wall = wall_seconds;
+  try {
+    checkpoint_now(sim, recorder);
+  } catch (const SystemError& failure) {
+    warn(std::string(failure.what()) +
+             "; the run goes on and tries again at the next checkpoint, " + "the newest one is " +
+             recorder.backlog.newest_checkpoint,
+         sim.communicator);
+  }
 }
 
 template <int Dim>
 std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::checkpoint);
-  const std::string path = recorder.folder + "/" + checkpoint_name(sim.clock.step);
+  const std::string name = checkpoint_name(sim.clock.step);
+  // A run that goes on from here writes later records only: the earlier ones come first.
+  if (!catch_up(recorder.backlog, sim.communicator)) {
+    throw SystemError("cannot write " + name +
+                      " before the records that wait: " + recorder.backlog.reason);
+  }
+  recorder.history->sync();
+  const std::string path = recorder.folder + "/" + name;
   write_checkpoint(path, sim.scene_text, run_state(sim), sim.particles, sim.communicator);
-  prune_checkpoints(recorder.folder, sim.scene.checkpoint.keep, sim.communicator);
+  recorder.backlog.newest_checkpoint = path;
   recorder.last_checkpoint_step = sim.clock.step;
+  prune_checkpoints(recorder.folder, sim.scene.checkpoint.keep, sim.communicator);
   return path;
 }
 
 template <int Dim>
 void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
-  write_snapshot<Dim>(recorder.folder + "/failed.h5", snapshot_input(sim), sim.communicator);
-}
-
-template <int Dim>
-std::uint64_t checksum(const Simulation<Dim>& sim) {
-  // Each particle is hashed with its id, and the hashes are added: order and rank cannot matter.
-  const auto mix = [](std::uint64_t h) {
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
-    return h ^ (h >> 31);
-  };
-  std::vector<std::uint64_t> hash(sim.particles.size(), 0x9e3779b97f4a7c15ULL);
-  for_each_column(sim.particles, [&](std::string_view, int, const auto& column) {
-    for (std::size_t p = 0; p < hash.size(); ++p) {
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &column[p], sizeof(column[p]));
-      hash[p] = mix(hash[p] ^ bits) + 0x9e3779b97f4a7c15ULL;
-    }
-  });
-  std::uint64_t total = 0;
-  for (const std::uint64_t h : hash) total += mix(h);
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_UINT64_T, MPI_SUM, sim.communicator),
-            "MPI_Allreduce of the checksum");
-  return total;
+  try {
+    write_snapshot<Dim>(recorder.folder + "/failed.h5", snapshot_input(sim), sim.communicator);
+  } catch (const SystemError& failure) {
+    warn(std::string(failure.what()) + "; failed.h5 is left out", sim.communicator);
+  }
 }
 
 template std::unique_ptr<PixelGrid<2>> make_pixels<2>(const Simulation<2>&);
@@ -248,7 +274,5 @@ template std::string checkpoint_now<2>(Simulation<2>&, Recorder<2>&);
 template std::string checkpoint_now<3>(Simulation<3>&, Recorder<3>&);
 template void write_failed_state<2>(Simulation<2>&, const Recorder<2>&);
 template void write_failed_state<3>(Simulation<3>&, const Recorder<3>&);
-template std::uint64_t checksum<2>(const Simulation<2>&);
-template std::uint64_t checksum<3>(const Simulation<3>&);
 
 }  // namespace poreshock

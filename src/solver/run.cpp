@@ -11,15 +11,17 @@
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/solver/checksum.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/progress.hpp"
 #include "poreshock/solver/records.hpp"
+#include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {
 
 namespace {
 
-constexpr std::int64_t rebalance_interval = 200;
+constexpr std::int64_t rebalance_interval = 100;
 constexpr double least_rebalance_gain = 0.05;
 constexpr double seconds_between_rows = 2.0;
 
@@ -72,6 +74,7 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   const double dt = next_time_step(sim.scene, sim.clock);
   advance(sim, dt);
   progress.particle_steps += static_cast<std::int64_t>(sim.particles.size());
+  progress.sleeping_steps += sleeping_particles(sim);
   tick(sim.scene, dt, sim.clock);
   // First of all: a checkpoint keeps the limit of all ranks, and a position that is not finite has
   // no row to go to.
@@ -85,8 +88,13 @@ template <int Dim>
 void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
             Progress& progress) {
   const std::uint64_t bits = checksum(sim);
-  const Timings timings = final_timings(sim.clock, sim.phases, progress, sim.communicator);
-  write_timings(options.folder + "/timings.json", timings, sim.communicator);
+  const Timings timings = final_timings(sim.clock, sim.phases, std::ssize(sim.particles.id),
+                                        progress, sim.communicator);
+  try {
+    write_timings(options.folder + "/timings.json", timings, sim.communicator);
+  } catch (const SystemError& failure) {
+    warn(std::string(failure.what()) + "; timings.json is left out", sim.communicator);
+  }
   const Ledger& l = sim.ledger;
   std::vector<std::int64_t> guards = {l.guards.compression,   l.guards.sound_speed,
                                       l.guards.wall_crossing, l.guards.temperature,
@@ -105,10 +113,29 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
       static_cast<long long>(guards[3]), static_cast<long long>(guards[4]),
       static_cast<long long>(guards[5]), static_cast<double>(escaped[0]) * mass_quantum(l),
       Dim == 2 ? "kg/m" : "kg", static_cast<unsigned long long>(bits));
+  for (const std::string& name : recorder.backlog.left_out) {
+    std::printf("left out: %s\n", name.c_str());
+  }
   std::printf("%s at step %lld, time %.6g ns, in %s\n",
               end == RunEnd::finished ? "finished" : "stopped",
               static_cast<long long>(sim.clock.step), sim.clock.time * 1e9, options.folder.c_str());
   std::fflush(stdout);
+}
+
+/// The checkpoint of a run that was asked to stop; without it the run ends as a failure.
+template <int Dim>
+void stop_with_checkpoint(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  std::string path;
+  try {
+    path = checkpoint_now(sim, recorder);
+  } catch (const SystemError& failure) {
+    throw SystemError(
+        "asked to stop, but no checkpoint can be written: " + std::string(failure.what()) +
+        "; the newest checkpoint is " + recorder.backlog.newest_checkpoint);
+  }
+  if (rank(sim.communicator) == 0) {
+    std::printf("asked to stop: checkpoint %s; continue with --restart latest\n", path.c_str());
+  }
 }
 
 template <int Dim>
@@ -119,10 +146,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
   bool stop_asked = synchronise(options, progress, sim);
   while (!at_end(limits, sim.clock)) {
     if (stop_asked) {
-      const std::string path = checkpoint_now(sim, recorder);
-      if (rank(sim.communicator) == 0) {
-        std::printf("asked to stop: checkpoint %s; continue with --restart latest\n", path.c_str());
-      }
+      stop_with_checkpoint(sim, recorder);
       return RunEnd::stopped;
     }
     stop_asked = step(options, sim, progress);
@@ -140,6 +164,7 @@ template <int Dim>
 RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
   Progress progress;
   progress.start_wall = MPI_Wtime();
+  progress.start_memory = peak_memory();
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);
@@ -158,6 +183,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
     remove_records_from(options.folder, sim.clock.beat + 1, communicator);
   }
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, std::move(pixels), sim);
+  if (options.continues) recorder.backlog.newest_checkpoint = options.restart;
   progress.first_step = sim.clock.step;
   progress.row_wall = MPI_Wtime();
   progress.row_time = sim.clock.time;

@@ -9,12 +9,15 @@
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/momentum.hpp"
 #include "poreshock/scene/read_scene.hpp"
+#include "poreshock/solver/check_state.hpp"
 #include "poreshock/solver/ownership.hpp"
+#include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
 #include "poreshock/transfer/remap.hpp"
 #include "poreshock/transfer/shape.hpp"
+#include "poreshock/transfer/sweep.hpp"
 #include "poreshock/transfer/velocity_filter.hpp"
 
 namespace poreshock {
@@ -41,6 +44,7 @@ Vector<Dim> grid_velocity(const Scene& scene) {
 template <int Dim>
 Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim;
+  make_grid_shape(scene);  // refuses a grid that PETSc cannot count, before anything is made
   sim.scene = scene;
   sim.scene_text = write_scene(scene);
   sim.communicator = communicator;
@@ -79,6 +83,25 @@ void take_report(const StressReport& report, Simulation<Dim>& sim) {
   sim.ledger.guards.compression += report.compression_guard;
   sim.ledger.guards.sound_speed += report.sound_speed_guard;
   sim.ledger.viscous_heat += report.viscous_heat;
+}
+
+/// Calls visit(rows) for chunks of the rows that are awake, so small that what the stress update
+/// takes from the grid stays in the cache. MUSL needs all particles moved before their stress
+/// follows.
+template <int Dim, class Visit>
+void for_each_chunk(const Simulation<Dim>& sim, Visit&& visit) {
+  constexpr std::uint32_t chunk = 1024;  // particles
+  const RowRange awake = awake_rows(sim.cells, *sim.grid);
+  // Collective there, so also where nothing is awake.
+  if (sim.scene.transfer.update == VelocityUpdate::musl) return visit(awake);
+  const auto place = [&](int row) { return first_place(sim.cells, *sim.grid, row); };
+  for (RowRange rows = {awake.first, awake.first}; rows.first < awake.last;
+       rows.first = rows.last) {
+    do {
+      ++rows.last;
+    } while (rows.last < awake.last && place(rows.last) - place(rows.first) < chunk);
+    visit(rows);
+  }
 }
 
 /// MUSL: the velocity that the updated particles give the nodes, under the same walls. Its impulses
@@ -123,6 +146,29 @@ void update_grids(double dt, Simulation<Dim>& sim) {
   });
 }
 
+/// Nodes to particles and stress of the particles of some rows.
+template <int Dim>
+void update_particles(RowRange rows, double dt, Simulation<Dim>& sim, StressReport& report) {
+  const Transfer& transfer = sim.scene.transfer;
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    {
+      const Phase phase(sim.phases, PhaseName::grid_to_particles);
+      grid_to_particles(grid, averages, cells, rows, transfer, sim.stress_settings.grid_velocity,
+                        dt, sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
+                        sim.ledger.transfer_heat);
+    }
+    if (transfer.update == VelocityUpdate::musl) {
+      const Phase phase(sim.phases, PhaseName::remap);
+      update_from_particles(dt, sim);
+    }
+    const Phase phase(sim.phases, PhaseName::stress);
+    const std::uint32_t first = first_place(cells, grid, rows.first);
+    const std::span places(cells.order.data() + first, first_place(cells, grid, rows.last) - first);
+    update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, sim.particles,
+                       report);
+  });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -135,11 +181,14 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   sim.sample = total(report, communicator);
   find_grains(sim);
   rebalance(0.0, sim);
+  release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   StressReport stress;
   initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, stress);
   take_report(stress, sim);
+  sim.clock.disturbed = disturbed_rows(sim);
+  agree_on_step(false, sim.clock, communicator);
   return sim;
 }
 
@@ -148,7 +197,9 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   Simulation<Dim> sim = prepare<Dim>(scene, communicator);
   std::string stored_scene;
   RunState state;
+  const ParticleOptions expected = sim.particles.options;
   read_checkpoint<Dim>(path, communicator, stored_scene, state, sim.particles);
+  require_sound_state(path, scene, expected, state, sim.particles, communicator);
   if (state.integers.size() != run_state_integers(sim)) {
     throw InputError(path + ": written by another version of this program, its ledger has " +
                      std::to_string(state.integers.size()) + " numbers instead of " +
@@ -167,6 +218,8 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   find_grains(sim);
   rebalance(0.0, sim);
+  sim.clock.disturbed = disturbed_rows(sim);
+  agree_on_step(false, sim.clock, communicator);
   return sim;
 }
 
@@ -196,8 +249,8 @@ void advance(Simulation<Dim>& sim, double dt) {
   const Transfer& transfer = sim.scene.transfer;
   const bool averaging = transfer.averaging > 0.0;
   sort_particles(sim);
+  sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
   split_by_colour(sim);
-  sim.step_data.resize(sim.particles.size(), averaging);
   if (transfer.velocity == VelocityTransfer::fmpm) {
     const Phase phase(sim.phases, PhaseName::filter);
     for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid*) {
@@ -231,19 +284,15 @@ void advance(Simulation<Dim>& sim, double dt) {
       const Phase phase(sim.phases, PhaseName::average);
       average_dilatation(sim.particles, cells, transfer, grid, *averages);
     }
-    const Phase phase(sim.phases, PhaseName::grid_to_particles);
-    grid_to_particles(grid, averages, cells, transfer, sim.stress_settings.grid_velocity, dt,
-                      sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
-                      sim.ledger.transfer_heat);
   });
-  if (transfer.update == VelocityUpdate::musl) {
-    const Phase phase(sim.phases, PhaseName::remap);
-    update_from_particles(dt, sim);
-  }
-  const Phase phase(sim.phases, PhaseName::stress);
   StressReport report;
-  update_stress(sim.materials, sim.stress_settings, sim.step_data, dt, sim.particles, report);
+  for_each_chunk(sim, [&](RowRange rows) { update_particles(rows, dt, sim, report); });
+  move_sleeping(dt, sim);
+  // Those asleep are still in the state that the first limit comes from.
+  if (sleeping_particles(sim) > 0)
+    report.dt_limit = std::min(report.dt_limit, sim.clock.first_limit);
   take_report(report, sim);
+  sim.clock.disturbed = disturbed_rows(sim);
 }
 
 template Simulation<2> start<2>(const Scene&, MPI_Comm);

@@ -26,11 +26,14 @@ double next_target(const Scene& scene, const Clock& clock) {
 }  // namespace
 
 StepAgreement agree_on_step(bool stop_asked, Clock& clock, MPI_Comm communicator) {
-  // All three as minima: the limit, and flags that are -1 when raised.
-  double values[3] = {clock.limit, clock.bad > 0 ? -1.0 : 0.0, stop_asked ? -1.0 : 0.0};
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, values, 3, MPI_DOUBLE, MPI_MIN, communicator),
+  // All as minima: the limit, flags that are -1 when raised, and the ends of the disturbed rows.
+  double values[5] = {clock.limit, clock.bad > 0 ? -1.0 : 0.0, stop_asked ? -1.0 : 0.0,
+                      static_cast<double>(clock.disturbed.first),
+                      -static_cast<double>(clock.disturbed.last)};
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, values, 5, MPI_DOUBLE, MPI_MIN, communicator),
             "MPI_Allreduce of the time step");
   clock.limit = values[0];
+  clock.disturbed = {static_cast<int>(values[3]), static_cast<int>(-values[4])};
   return {values[1] < 0.0, values[2] < 0.0};
 }
 

@@ -22,6 +22,7 @@ void divide_by_volume(SlabGrid& averages) {
 template <int Dim, class Spline>
 void pressure_sweeps(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
                      double share, SlabGrid& averages, StepData<Dim>& step) {
+  step.averaged_pressure.resize(particles.size());
   scatter_values<Dim, 2>(
       spline, particles, cells,
       [&](std::uint32_t p) {

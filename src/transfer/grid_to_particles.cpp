@@ -174,7 +174,8 @@ inline void take_averages(std::array<Lanes, lane_count>& averages, GroupMoments<
 /// Eight particles in canonical order; an incomplete group repeats its last one.
 struct Group {
   std::array<std::uint32_t, lane_count> particles;
-  int count;  ///< distinct ones
+  int count;          ///< distinct ones
+  std::size_t place;  ///< of the first, from the first particle of the sweep
 };
 
 inline Lanes load(const std::vector<double>& column, const Group& group) {
@@ -188,6 +189,18 @@ inline void store(const Lanes& lanes, const Group& group, std::vector<double>& c
   *reinterpret_cast<Lanes*>(values) = lanes;
   double* const target = column.data();
   for (int n = 0; n < lane_count; ++n) target[group.particles[n]] = values[n];
+}
+
+/// Stores the results of a group side by side.
+inline void store_ordered(const Lanes& lanes, const Group& group, std::vector<double>& column) {
+  double values[lane_count];
+  *reinterpret_cast<Lanes*>(values) = lanes;
+  double* const target = column.data() + group.place;
+  if (group.count == lane_count) {
+    *reinterpret_cast<Lanes*>(target) = lanes;
+  } else {
+    std::copy(values, values + group.count, target);
+  }
 }
 
 /// Velocity by APIC; returns the kinetic energy per mass the projection onto (v, C) loses.
@@ -261,12 +274,12 @@ inline void store_gradients(const GroupMoments<Dim>& m, const Motion<Dim>& motio
   for (int a = 0; a < Dim; ++a) {
     for (int k = 0; k < Dim; ++k) {
       const Lanes end = m.gradient[k][Lane::end_velocity + a];
-      store(end, group, step.gradient[a * Dim + k]);
+      store_ordered(end, group, step.gradient[a * Dim + k]);
       middle[a][k] = 0.5 * (m.gradient[k][Lane::start_velocity + a] + end);
     }
   }
   const auto rate = symmetric_part<Dim>(middle);
-  for (int k = 0; k < rate_size<Dim>; ++k) store(rate[k], group, step.rate[k]);
+  for (int k = 0; k < rate_size<Dim>; ++k) store_ordered(rate[k], group, step.rate[k]);
   if (motion.averages == nullptr) return;
   Lanes end{}, mid{};
   for (int a = 0; a < Dim; ++a) {
@@ -274,8 +287,8 @@ inline void store_gradients(const GroupMoments<Dim>& m, const Motion<Dim>& motio
     mid += middle[a][a];
   }
   const double share = motion.averaging;
-  store((1.0 - share) * end + share * m.dilatation_end, group, step.dilatation_end);
-  store((1.0 - share) * mid + share * m.dilatation_mid, group, step.dilatation_mid);
+  store_ordered((1.0 - share) * end + share * m.dilatation_end, group, step.dilatation_end);
+  store_ordered((1.0 - share) * mid + share * m.dilatation_mid, group, step.dilatation_mid);
 }
 
 template <int Dim, VelocityTransfer Velocity, class Spline>
@@ -307,15 +320,16 @@ inline Int128 move_group(const GroupMoments<Dim>& m, double cell, const Motion<D
     }
   }
   store_gradients<Dim>(m, motion, group, step);
-  store(m.value[Lane::heat] + lost, group, step.heat);
+  store_ordered(m.value[Lane::heat] + lost, group, step.heat);
   const Lanes heat = load(particles.mass, group) * lost;
   Int128 quanta = 0;
   for (int n = 0; n < group.count; ++n) quanta += quantise(heat[n], motion.inverse_quantum);
   return quanta;
 }
 
+// Flattened: a call per value would cost more than the arithmetic.
 template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
-void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
+[[gnu::flatten]] void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells, RowRange rows,
            const Motion<Dim>& motion, Particles<Dim>& particles, StepData<Dim>& step,
            Int128& filter_heat) {
   constexpr bool affine = Velocity == VelocityTransfer::apic;
@@ -335,6 +349,7 @@ void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
     take_averages<Dim, Spline>(averages, m);
     filter_heat +=
         move_group<Dim, Velocity, Update, Spline>(m, cell, motion, group, particles, step);
+    group.place += group.count;
     group.count = 0;
   };
   gather_with<Dim, Spline>(
@@ -347,7 +362,7 @@ void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
         }
         return w;
       },
-      particles, cells, grid,
+      particles, cells, grid, rows,
       [&](std::uint32_t p, const PointWeights<Dim>& w, const Lanes* nodes) {
         group.particles[group.count] = p;
         if constexpr (Dim == 3) {
@@ -384,38 +399,40 @@ void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid) {
 
 template <int Dim>
 void grid_to_particles(const SlabGrid& grid, const SlabGrid* averages, const CellOrder& cells,
-                       const Transfer& transfer, const Vector<Dim>& grid_velocity, double dt,
-                       double inverse_quantum, Particles<Dim>& particles, StepData<Dim>& step,
-                       Int128& filter_heat) {
+                       RowRange rows, const Transfer& transfer, const Vector<Dim>& grid_velocity,
+                       double dt, double inverse_quantum, Particles<Dim>& particles,
+                       StepData<Dim>& step, Int128& filter_heat) {
   const Motion<Dim> motion = {
       damped_share(transfer, dt), grid_velocity, dt, inverse_quantum, averages, transfer.averaging};
+  resize_ordered(first_place(cells, grid, rows.last) - first_place(cells, grid, rows.first),
+                 averages != nullptr, step);
   with_shape(transfer, [&]<class Spline>(const Spline& spline) {
     if constexpr (is_spline<Spline>) {
       if (transfer.velocity == VelocityTransfer::apic) {
         return sweep<Dim, VelocityTransfer::apic, VelocityUpdate::usl>(
-            spline, grid, cells, motion, particles, step, filter_heat);
+            spline, grid, cells, rows, motion, particles, step, filter_heat);
       }
       if (transfer.velocity == VelocityTransfer::pic) {
-        return sweep<Dim, VelocityTransfer::pic, VelocityUpdate::usl>(spline, grid, cells, motion,
-                                                                      particles, step, filter_heat);
+        return sweep<Dim, VelocityTransfer::pic, VelocityUpdate::usl>(
+            spline, grid, cells, rows, motion, particles, step, filter_heat);
       }
     } else if (transfer.update == VelocityUpdate::musl) {
       for (auto& column : step.transport) column.resize(particles.size());
-      return sweep<Dim, VelocityTransfer::flip, VelocityUpdate::musl>(spline, grid, cells, motion,
-                                                                      particles, step, filter_heat);
+      return sweep<Dim, VelocityTransfer::flip, VelocityUpdate::musl>(
+          spline, grid, cells, rows, motion, particles, step, filter_heat);
     }
     // FMPM has filtered the velocities before the step; the step itself is FLIP's.
-    sweep<Dim, VelocityTransfer::flip, VelocityUpdate::usl>(spline, grid, cells, motion, particles,
-                                                            step, filter_heat);
+    sweep<Dim, VelocityTransfer::flip, VelocityUpdate::usl>(spline, grid, cells, rows, motion,
+                                                            particles, step, filter_heat);
   });
 }
 
 template void prepare_gather<2>(const Transfer&, double, SlabGrid&);
 template void prepare_gather<3>(const Transfer&, double, SlabGrid&);
-template void grid_to_particles<2>(const SlabGrid&, const SlabGrid*, const CellOrder&,
+template void grid_to_particles<2>(const SlabGrid&, const SlabGrid*, const CellOrder&, RowRange,
                                    const Transfer&, const Vector<2>&, double, double, Particles<2>&,
                                    StepData<2>&, Int128&);
-template void grid_to_particles<3>(const SlabGrid&, const SlabGrid*, const CellOrder&,
+template void grid_to_particles<3>(const SlabGrid&, const SlabGrid*, const CellOrder&, RowRange,
                                    const Transfer&, const Vector<3>&, double, double, Particles<3>&,
                                    StepData<3>&, Int128&);
 

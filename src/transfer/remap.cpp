@@ -1,24 +1,21 @@
 #include "poreshock/transfer/remap.hpp"
 
+#include "poreshock/transfer/blocks.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
-#include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {
 
 template <int Dim>
 void remap_velocity(const Particles<Dim>& particles, const CellOrder& cells,
                     const Transfer& transfer, SlabGrid& grid) {
-  with_hat(transfer, [&]<class Spline>(const Spline& spline) {
-    scatter<Dim>(
+  with_hat(transfer, [&](const auto& spline) {
+    scatter_values<Dim, 1 + Dim>(
         spline, particles, cells,
-        [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
-          const double m = particles.mass[p];
-          Lanes momentum{};
-          momentum[SumLane<Dim>::mass] = m;
-          for (int a = 0; a < Dim; ++a) {
-            momentum[SumLane<Dim>::momentum + a] = m * particles.velocity[a][p];
-          }
-          add_weighted<Dim, Spline>(stencil, momentum, sums);
+        [&](std::uint32_t p) {
+          std::array<double, 1 + Dim> values{particles.mass[p]};
+          for (int a = 0; a < Dim; ++a)
+            values[1 + a] = particles.mass[p] * particles.velocity[a][p];
+          return values;
         },
         grid);
   });
@@ -29,6 +26,7 @@ void gather_remapped(const SlabGrid& grid, const CellOrder& cells, const Transfe
                      const Vector<Dim>& grid_velocity, double dt, Particles<Dim>& particles,
                      StepData<Dim>& step) {
   const double inverse_cell = 1.0 / grid.shape().cell;
+  std::size_t place = 0;
   with_hat(transfer, [&]<class Spline>(const Spline& spline) {
     gather<Dim>(spline, particles, cells, grid,
                 [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
@@ -42,12 +40,13 @@ void gather_remapped(const SlabGrid& grid, const CellOrder& cells, const Transfe
                   for (int a = 0; a < Dim; ++a) {
                     for (int k = 0; k < Dim; ++k) {
                       g[a][k] = gradient[k][MotionLane<Dim>::end_velocity + a] * inverse_cell;
-                      step.gradient[a * Dim + k][p] = g[a][k];
+                      step.gradient[a * Dim + k][place] = g[a][k];
                     }
                     particles.position[a][p] += dt * (step.transport[a][p] - grid_velocity[a]);
                   }
                   const auto rate = symmetric_part<Dim>(g);
-                  for (int k = 0; k < rate_size<Dim>; ++k) step.rate[k][p] = rate[k];
+                  for (int k = 0; k < rate_size<Dim>; ++k) step.rate[k][place] = rate[k];
+                  ++place;
                 });
   });
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "poreshock/transfer/sweep.hpp"
+#include "poreshock/transfer/blocks.hpp"
 
 namespace poreshock {
 
 namespace {
 
-/// Lanes of a node: sums of mass, momentum and m |r|^2 (at `variance`), then mean velocity R, |R|^2
+/// Lanes of a node: sums of mass, momentum and m |r|^2 (at `square`), then mean velocity R, |R|^2
 /// and the mean of |r|^2 less |R|^2.
 template <int Dim>
 struct ResidualLane {
@@ -21,19 +21,19 @@ struct ResidualLane {
 template <int Dim, class Spline>
 void scatter_residual(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
                       const StepData<Dim>& step, SlabGrid& grid) {
-  scatter<Dim>(
+  scatter_values<Dim, 2 + Dim>(
       spline, particles, cells,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
+      [&](std::uint32_t p) {
         const double m = particles.mass[p];
-        Lanes momentum{m};
+        std::array<double, 2 + Dim> values{m};
         double square = 0.0;
         for (int a = 0; a < Dim; ++a) {
           const double r = step.residual[a][p];
-          momentum[ResidualLane<Dim>::velocity + a] = m * r;
+          values[ResidualLane<Dim>::velocity + a] = m * r;
           square += r * r;
         }
-        momentum[ResidualLane<Dim>::variance] = m * square;
-        add_weighted<Dim, Spline>(stencil, momentum, sums);
+        values[ResidualLane<Dim>::square] = m * square;
+        return values;
       },
       grid);
 }
@@ -48,12 +48,13 @@ void divide_by_mass(SlabGrid& grid) {
       const double mass = nodes[i][Lane::mass];
       if (!(mass > 0.0)) continue;
       nodes[i] = nodes[i] / mass;
+      const double mean_square = nodes[i][Lane::square];
       double square = 0.0;
       for (int a = 0; a < Dim; ++a) {
         square += nodes[i][Lane::velocity + a] * nodes[i][Lane::velocity + a];
       }
       nodes[i][Lane::square] = square;
-      const double rest = nodes[i][Lane::variance] - square;
+      const double rest = mean_square - square;
       nodes[i][Lane::variance] = rest > 0.0 ? rest : 0.0;
     }
   }
@@ -85,7 +86,7 @@ void subtract_average(const Spline& spline, const Particles<Dim>& particles, con
                 if (takes_variance) heat += mean[Lane::variance];
                 if (takes_nodes) heat += mean[Lane::square];
                 if (takes_spread) heat += mean[Lane::square] - mean2;
-                step.heat[p] += 0.5 * heat;
+                step.filter_heat[p] += 0.5 * heat;
               });
 }
 
@@ -95,11 +96,8 @@ template <int Dim>
 void filter_velocity(const CellOrder& cells, const Transfer& transfer, double inverse_quantum,
                      SlabGrid& grid, Particles<Dim>& particles, StepData<Dim>& step,
                      Int128& filter_heat) {
-  for (int a = 0; a < Dim; ++a) {
-    step.residual[a].resize(particles.size());
-    for (const std::uint32_t p : cells.order) step.residual[a][p] = particles.velocity[a][p];
-  }
-  for (const std::uint32_t p : cells.order) step.heat[p] = 0.0;
+  for (int a = 0; a < Dim; ++a) step.residual[a] = particles.velocity[a];
+  step.filter_heat.assign(particles.size(), 0.0);
   with_shape(transfer, [&](const auto& spline) {
     for (int applied = 0; applied < transfer.order; ++applied) {
       scatter_residual<Dim>(spline, particles, cells, step, grid);
@@ -108,10 +106,13 @@ void filter_velocity(const CellOrder& cells, const Transfer& transfer, double in
       subtract_average<Dim>(spline, particles, cells, transfer.order, applied, grid, step);
     }
   });
-  for (const std::uint32_t p : cells.order) {
+  const RowRange rows = awake_rows(cells, grid);
+  const std::uint32_t end = first_place(cells, grid, rows.last);
+  for (std::uint32_t k = first_place(cells, grid, rows.first); k < end; ++k) {
+    const std::uint32_t p = cells.order[k];
     for (int a = 0; a < Dim; ++a) particles.velocity[a][p] -= step.residual[a][p];
-    particles.internal_energy[p] += step.heat[p];
-    filter_heat += quantise(particles.mass[p] * step.heat[p], inverse_quantum);
+    particles.internal_energy[p] += step.filter_heat[p];
+    filter_heat += quantise(particles.mass[p] * step.filter_heat[p], inverse_quantum);
   }
 }
 

@@ -110,7 +110,53 @@ class Snapshots(program.ProgramTest):
             self.assertTrue(0 < after[f"{field}/A"][0, 1] < 1)
             numpy.testing.assert_array_equal(after[f"{field}/F"][0], during[f"{field}/F"][-1])
 
+    def test_quantiles_voids_and_isolines_of_a_snapshot(self):
+        snapshot = self.snapshots[-1]
+        self.succeed("analyze", snapshot, "--quantiles", "0.2,0.5,0.9", "--output", "shares", ranks=2)
+        shares = program.datasets(self.folder / "shares/morphology.h5")
+        numpy.testing.assert_array_equal(shares["temperature/threshold"], [0.2, 0.5, 0.9])
+        with h5py.File(self.folder / "shares/morphology.h5") as file:
+            self.assertEqual(file["temperature/threshold"].attrs["unit"], "1")
+            self.assertEqual(file["temperature/level"].attrs["unit"], "K")
+            self.assertEqual(file["temperature/L_physical"].attrs["unit"], "1/m")
+            pixel = file.attrs["pixel"]
+        # At least the share p of all pixels is no hotter than the level, and so at most 1 - p hotter.
+        material = int(shares["temperature/pixels"][0])
+        for p, level, white in zip((0.2, 0.5, 0.9), shares["temperature/level"][0], shares["temperature/F"][0]):
+            self.assertGreaterEqual(white, material - numpy.ceil(p * material) + 1)
+            above = level + 0.01  # the values of a map are rounded on a scale that goes with its thresholds
+            self.succeed("analyze", snapshot, "--thresholds", f"{above}", "--output", f"above{p}")
+            hotter = program.datasets(self.folder / f"above{p}/morphology.h5")["temperature/F"][0, 0]
+            self.assertLessEqual(hotter, material - numpy.ceil(p * material))
+        numpy.testing.assert_allclose(shares["temperature/L_physical"], shares["temperature/L"] / pixel, rtol=1e-15)
+        numpy.testing.assert_allclose(shares["temperature/chi_physical"], shares["temperature/chi"] / pixel**2, rtol=1e-15)
+        chi = {}
+        for voids in ("black", "white", "fill", "exclude"):
+            self.succeed("analyze", snapshot, "--thresholds", "310:600:10", "--voids", voids, "--isoline", "--output", voids,
+                         ranks=3)
+            found = program.datasets(self.folder / f"{voids}/morphology.h5")
+            chi[voids] = found["temperature/chi"][0]
+            # Area, boundary and counts are of the material whatever a void is for chi.
+            for name in ("A", "L", "L_crofton", "L_isoline", "F", "E", "V", "n_W"):
+                if voids != "black":
+                    numpy.testing.assert_array_equal(found[f"temperature/{name}"], black[f"temperature/{name}"])
+            black = found
+        # Voids inside hot material: each is a hole when black, and none when white or filled.
+        hottest = slice(0, 5)
+        self.assertTrue((chi["white"] >= chi["black"]).all())
+        self.assertTrue((chi["fill"][hottest] > chi["black"][hottest]).all())
+        # Pixel sides are longer than the line they follow, by 4/pi for all directions alike.
+        measured = black["temperature/L"][0] > 0.01
+        ratio = black["temperature/L_isoline"][0][measured] / black["temperature/L"][0][measured]
+        self.assertTrue(((0.3 < ratio) & (ratio < 1.05)).all(), ratio)
+
     def test_refusals(self):
+        self.refuse("--thresholds: give FROM:TO:STEP or A,B,C in the unit of the field, or, and not both, --quantiles with "
+                    "shares of the material", "analyze", self.snapshots[0])
+        self.refuse("quantiles: found a share of 1.500000, allowed 0 ... 1", "analyze", self.snapshots[0], "--quantiles",
+                    "0.5,1.5", ranks=2)
+        self.refuse('--voids: found "grey", allowed "black", "white", "fill", "exclude"', "analyze", self.snapshots[0],
+                    "--thresholds", "400", "--voids", "grey")
         self.refuse("run/history.csv: not an HDF5 file, or its beginning is damaged",
                     "analyze", "run/history.csv", "--thresholds", "1,2")
         self.refuse("run/morphology.h5: not a snapshot; for an array in an HDF5 file write "

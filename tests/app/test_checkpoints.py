@@ -1,6 +1,8 @@
 """A run that goes on from a checkpoint is, to the last bit, the run that was never interrupted."""
 import shutil
 
+import h5py
+
 from program import DISC, POROUS, ProgramTest, closing_lines, flip_byte, history, particles, same_bits
 
 
@@ -37,6 +39,20 @@ class Restart(ProgramTest):
         names = sorted(path.name for path in (self.folder / "stopped").glob("checkpoint_*"))
         self.assertEqual(names, ["checkpoint_000000025.h5", "checkpoint_000000050.h5"])
         self.assertEqual(list((self.folder / "whole").glob("checkpoint_*")), [])
+
+    def test_checkpoints_by_simulated_and_by_wall_time(self):
+        never = ("--set", "checkpoint.every_steps=0", "--set", "checkpoint.keep=100")
+        self.run_scene("porous.toml", "beats", "--set", "checkpoint.every_time=5e-9", *never, ranks=2)
+        times = []
+        for path in sorted((self.folder / "beats").glob("checkpoint_*")):
+            with h5py.File(path) as file:
+                times.append(round(file.attrs["time"] * 1e9, 6))
+        self.assertEqual(times, [5.0, 10.0, 15.0, 20.0])
+        result = self.run_scene("porous.toml", "often", "--set", "checkpoint.every_wall=1e-9", "--set", "time.max_steps=9",
+                                "--set", "checkpoint.keep=4", *never[:2], ranks=2)
+        self.assertIn("finished at step 9, ", result.output)
+        self.assertEqual(sorted(path.name for path in (self.folder / "often").glob("checkpoint_*")),
+                         [f"checkpoint_{step:09d}.h5" for step in (6, 7, 8, 9)])
 
     def test_written_on_three_ranks_and_continued_on_others(self):
         for ranks in (1, 2):

@@ -81,6 +81,37 @@ class Compare(program.ProgramTest):
         self.assertEqual(lines[2].split(",")[4:], ["0", "500", "0"])
         self.assertEqual(output.count("identical"), 2)
 
+    def test_seeds_give_an_uncertainty(self):
+        for seed in (2, 3):
+            self.run_scene("porous.toml", f"seed{seed}", "--set", "loading.velocity=1300", "--set", f"sample.seed={seed}",
+                           "--set", "morphology.domains=true")
+        output = self.succeed("compare", "v1500", "v1300", "v1500", "seed2", "seed3", "--threshold", "450,500", "--output",
+                              "seeds.h5", ranks=2).output
+        self.assertIn("3 runs that differ in the seed only, mean +- standard deviation: v1300 seed2 seed3", output)
+        found = program.datasets(self.folder / "seeds.h5")
+        best = numpy.stack([found[f"run_{k}/best_threshold"] for k in (1, 3, 4)])
+        self.assertEqual(best.shape, (3, 2))
+        numpy.testing.assert_allclose(found["seeds_1/best_threshold"], best.mean(axis=0), rtol=1e-12)
+        numpy.testing.assert_allclose(found["seeds_1/best_threshold_deviation"], best.std(axis=0, ddof=1), rtol=1e-9)
+        self.assertGreater(best.std(axis=0, ddof=1).max(), 0.0)
+        with h5py.File(self.folder / "seeds.h5") as file:
+            self.assertEqual(file.attrs["seeds_1"], "run_1, run_3, run_4")
+            self.assertNotIn("seeds_2", file)
+
+    def test_times_of_their_own_loading(self):
+        # A slow run of a third of the time is loaded all along, as the fast one is: at equal shares of the loading.
+        self.run_scene("porous.toml", "short", "--set", "time.end=15e-9", "--set", "morphology.domains=true")
+        self.succeed("compare", "v1500", "short", "--threshold", "500", "--time", "loading", "--output", "own.h5")
+        self.succeed("compare", "v1500", "short", "--threshold", "500", "--window", "faster", "--output", "common.h5")
+        own, common = (program.datasets(self.folder / name) for name in ("own.h5", "common.h5"))
+        self.assertEqual((own["run_1/time"][0], own["run_1/time"][-1]), (0.0, 1.0))
+        self.assertEqual(common["run_1/time"][-1], 15e-9)
+        # The same run: no distance at common times, and some where one is stretched.
+        self.assertLess(common["run_1/d_p_same"][0], 1e-15)
+        self.assertGreater(own["run_1/d_p_same"][0], 0.0)
+        with h5py.File(self.folder / "own.h5") as file:
+            self.assertEqual(file["run_1/time"].attrs["unit"], "1")
+
     def test_other_pixels_need_a_length(self):
         self.assertIn("other pixels than v1500, 2e-05 m against 1e-05 m", self.message(2, "compare", "v1500", "coarse"))
         self.succeed("compare", "v1500", "coarse", "--length", "10e-6", "--threshold", "500", "--output", "length.h5")
@@ -94,7 +125,8 @@ class Compare(program.ProgramTest):
 
     def test_refusals(self):
         self.refuse("compare: found 1 run, allowed two or more; the first is the reference", "compare", "v1500")
-        self.refuse('--window: found "5", allowed BEGIN:END, two numbers in seconds, the second larger',
+        self.refuse('--window: found "5", allowed BEGIN:END, two numbers in seconds, the second larger, or slower or faster, the run whose end of '
+                    "loading ends the window",
                     "compare", "v1500", "v1300", "--window", "5")
         self.refuse('--threshold: found "50", allowed a number from 310 to 900 K, what v1500 measured',
                     "compare", "v1500", "v1300", "--threshold", "50")

@@ -76,6 +76,12 @@ class RefusedScenes(ProgramTest):
         text = POROUS + '[[void]]\nshape = "box"\nlow = [0, 0]\nhigh = [1, 1]\n'
         self.assertTrue(self.message_of(text).startswith("The scene makes no particle at all:"))
 
+    def test_grid_that_petsc_cannot_count(self):
+        """2^28 nodes of 8 numbers are the limit of Debian's PETSc; said before the sample is made."""
+        self.refuse_text("the grid has 9600020400009 nodes, allowed are 268435455 with this PETSc: use larger cells, or build "
+                         "with a PETSc of 64-bit indices (libpetsc64-real-dev)", POROUS, "--set",
+                         "domain.size=[20, 48]", "--set", "sample.height=48", ranks=2)
+
     def test_too_many_ranks(self):
         low = POROUS.replace("0.48e-3", "0.09e-3").replace("0.4e-3", "0.09e-3").replace("0.15", "0.1")
         self.refuse_text("the domain has 12 rows of nodes along the shock axis, 4 ranks need at least 15: use fewer "

@@ -1,6 +1,7 @@
 """Exit 2: a checkpoint a run cannot go on from; and what the folder holds is kept."""
 import shutil
 
+from faults import tell
 from program import BALLS, DISC, POROUS, ProgramTest, flip_byte
 
 
@@ -27,24 +28,31 @@ class RefusedRestart(ProgramTest):
         shutil.copy(self.folder / "out/snapshot_000000.h5", self.folder / "out/copy.h5")
         self.refuse_restart("out/copy.h5: not a checkpoint of poreshock", "out/copy.h5", ranks=2)
         self.write("out/text.h5", "not HDF5\n")
-        self.refuse_restart("out/text.h5: not an HDF5 file, or its beginning is damaged", "out/text.h5")
+        self.refuse_restart("out/text.h5: not a file of poreshock, or truncated: it has 9 bytes, its header alone takes 4096",
+                            "out/text.h5")
 
     def test_missing_file(self):
-        self.refuse_restart("out/none.h5: not found", "out/none.h5", ranks=3)
-        self.refuse_restart("out: not a file but a folder or a device", "out")
+        self.refuse_restart("out/none.h5: not found, or not a file", "out/none.h5", ranks=3)
+        self.refuse_restart("out: not found, or not a file", "out")
 
     def test_truncated_checkpoint(self):
         (self.folder / self.checkpoint).write_bytes(self.whole[:-1000])
-        before = self.contents(".")
-        message = self.message(2, "run", "porous.toml", "--output", "out", "--restart", self.checkpoint)
-        self.assertTrue(message.startswith(f"{self.checkpoint}: truncated or damaged HDF5 file: "), message)
-        self.assertEqual(self.contents("."), before)
+        size = len(self.whole)
+        said = f"{self.checkpoint}: truncated or extended: it has {size - 1000} bytes, its header says {size}"
+        self.refuse_restart(said, self.checkpoint, ranks=2)
+        tell("damaged checkpoint", "the last 1000 bytes cut off", said)
 
     def test_flipped_byte(self):
-        flip_byte(self.folder / self.checkpoint, len(self.whole) // 2)
-        for ranks in (1, 3):
-            self.refuse_restart(f"{self.checkpoint}: damaged: its content does not match the hash in its header",
-                                self.checkpoint, ranks=ranks)
+        for at in (0, 9, 40, 3000, 4095, 4100, len(self.whole) // 2, len(self.whole) - 1):
+            (self.folder / self.checkpoint).write_bytes(self.whole)
+            flip_byte(self.folder / self.checkpoint, at)
+            said = (f"{self.checkpoint}: damaged: its content does not match the hash in its header" if at >= 4096 else
+                    f"{self.checkpoint}: damaged: its header does not match the header's own hash" if at >= 8 else
+                    f"{self.checkpoint}: damaged, its first 8 bytes are not the mark of poreshock files")
+            self.refuse_restart(said, self.checkpoint, ranks=3 if at in (9, 4100) else 1)
+            place = {0: "the mark", 40: "the padding of the header", 4100: "the content"}.get(at)
+            if place:
+                tell("damaged checkpoint", f"one byte flipped in {place}", said)
 
     def test_no_good_checkpoint_for_latest(self):
         flip_byte(self.folder / self.checkpoint, len(self.whole) // 2)
@@ -58,17 +66,22 @@ class RefusedRestart(ProgramTest):
         self.refuse_restart("empty: holds no usable checkpoint (checkpoint_NNNNNNNNN.h5)", "latest", output="empty")
 
     def test_another_dimension(self):
-        self.refuse_restart(f"{self.checkpoint}: holds a 2-D run, the scene asks for 3-D", self.checkpoint,
-                            scene="balls.toml", output="balls", ranks=2)
+        said = f"{self.checkpoint}: holds a 2-D run, the scene asks for 3-D"
+        self.refuse_restart(said, self.checkpoint, scene="balls.toml", output="balls", ranks=2)
+        tell("wrong checkpoint", "a checkpoint of a 2-D run for a 3-D scene", said)
 
     def test_other_physics(self):
         allowed = ("; allowed are differences in the title, time.end, time.max_steps, output, checkpoint, profile and morphology: "
                    "restart with the scene.toml beside it, or start a new run")
         written = f"{self.checkpoint} was written by a scene that differs in "
-        self.refuse_restart(written + "loading" + allowed, "latest", "--set", "loading.velocity=1400", ranks=2)
-        self.refuse_restart(written + "time.cfl, output.beat" + allowed, "latest", "--set", "time.cfl=0.3", "--set",
+        tell("wrong checkpoint", "another impact velocity on restart", written + "loading.velocity" + allowed)
+        self.refuse_restart(written + "loading.velocity" + allowed, "latest", "--set", "loading.velocity=1400", ranks=2)
+        self.refuse_restart(written + "output.beat, time.cfl" + allowed, "latest", "--set", "time.cfl=0.3", "--set",
                             "output.beat=5e-9", "--set", "output.history=5e-9")
-        self.refuse_restart(written + "domain, sample, body, loading, output.beat" + allowed, self.checkpoint,
+        self.refuse_restart(written + "material.0.conductivity" + allowed, "latest", "--set",
+                            "material.0.conductivity=237")
+        self.refuse_restart(written + "body, domain.size, loading.velocity, output.beat, sample.height, sample.keep_out, "
+                            "sample.kind, sample.ligament, sample.porosity, sample.void_radius" + allowed, self.checkpoint,
                             scene="disc.toml", output="disc")
 
     def test_other_thresholds_in_the_same_folder(self):

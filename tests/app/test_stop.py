@@ -1,4 +1,5 @@
 """A run that is asked to stop, by a signal or by its wall time, ends well and goes on later."""
+import os
 import re
 import signal
 import subprocess
@@ -6,6 +7,7 @@ import time
 
 import h5py
 
+from faults import Running, tell
 from program import POROUS, ProgramTest, Result, closing_lines
 
 # Far longer than the test waits for it.
@@ -51,11 +53,28 @@ class Stop(ProgramTest):
             run.kill()
         self.assert_stopped("signal", Result(run.returncode, output, errors))
 
+    def test_signals_to_a_rank(self):
+        """TERM, INT and USR1, each to one rank of two: all stop after the same step."""
+        self.write("scene.toml", LONG)
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+            run = Running(self.command("run", "scene.toml", "--quiet", "--output", number.name, ranks=2), self.folder)
+            self.addCleanup(run.stop)
+            history = self.folder / number.name / "history.csv"
+            run.wait_for(lambda path=history: path.exists() and path.read_text().count("\n") > 2)
+            os.kill(run.rank(1), number)
+            result = run.finish(30)
+            self.assertEqual(result.code, 0, str(result))
+            match = re.match(r"asked to stop: checkpoint (\S+\.h5); continue with --restart latest\n", result.output)
+            self.assertIsNotNone(match, str(result))
+            self.assertIn("content   intact\n", self.succeed("info", match[1]).output)
+        tell("signal", "TERM, INT or USR1 to one rank, USR1 to mpirun", result.output.splitlines()[0])
+
     def test_wall_time(self):
         begin = time.monotonic()
         result = self.call("run", "long.toml", "--quiet", "--output", "wall", "--wall-time", "0.2", ranks=2)
         self.assertLess(time.monotonic() - begin, 60)
         self.assert_stopped("wall", result)
+        tell("wall time", "--wall-time 0.2", result.output.splitlines()[0])
 
     def test_wall_time_that_is_over_at_once(self):
         result = self.succeed("run", "long.toml", "--quiet", "--output", "none", "--wall-time", "1e-9")

@@ -1,6 +1,9 @@
 // The few collectives of the program, and the texts of failures of the libraries below it.
 #include <gtest/gtest.h>
+
 #include <petscsys.h>
+#include <chrono>
+#include <thread>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -53,6 +56,18 @@ TEST(Failures, NameTheCallAndTheReason) {
   EXPECT_NE(mpi.find("TRUNCATE"), std::string::npos) << mpi;
   EXPECT_EQ(text_of_failure([] { check_petsc(0, "x"); }), "no failure");
   EXPECT_EQ(text_of_failure([] { check_mpi(MPI_SUCCESS, "x"); }), "no failure");
+}
+
+TEST(Farewell, RanksThatWaitInVainSaySo) {
+  MPI_Comm farewell = MPI_COMM_NULL;
+  MPI_Comm_dup(MPI_COMM_WORLD, &farewell);
+  EXPECT_TRUE(all_arrive(20.0, farewell));
+  const bool late = rank(farewell) == 0 && size(farewell) > 1;
+  if (late) std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const bool all = all_arrive(late ? 20.0 : 0.1, farewell);
+  EXPECT_EQ(all, late || size(farewell) == 1);
+  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Comm_free(&farewell);
 }
 
 }  // namespace

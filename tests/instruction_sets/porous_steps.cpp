@@ -14,6 +14,7 @@
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
 #include "poreshock/transfer/shape.hpp"
+#include "poreshock/transfer/sweep.hpp"
 #include "poreshock/transfer/velocity_filter.hpp"
 #include "support/aluminium.hpp"
 #include "support/random_numbers.hpp"
@@ -182,7 +183,6 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& averages, Sample<Dim>& 
   Vector<Dim> body_force = Vector<Dim>::Zero();
   body_force[0] = 3.0e8;
   sort_particles<Dim>(grid, n, s);
-  s.step.resize(s.particles.size(), averaging);
   if (transfer.velocity == VelocityTransfer::fmpm) {
     filter_velocity(s.cells, transfer, s.settings.inverse_energy_quantum, grid, s.particles, s.step,
                     s.transfer_heat);
@@ -200,10 +200,10 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& averages, Sample<Dim>& 
   add_body_work<Dim>(body_force, dt, grid, s.ledger);
   prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
   if (averaging) average_dilatation(s.particles, s.cells, transfer, grid, averages);
-  grid_to_particles(grid, averaging ? &averages : nullptr, s.cells, transfer,
+  grid_to_particles(grid, averaging ? &averages : nullptr, s.cells, all_rows(grid), transfer,
                     s.settings.grid_velocity, dt, s.settings.inverse_energy_quantum, s.particles,
                     s.step, s.transfer_heat);
-  update_stress(s.materials, s.settings, s.step, dt, s.particles, s.report);
+  update_stress(s.materials, s.settings, s.step, dt, s.cells.order, s.particles, s.report);
   confine<Dim>(s);
 }
 

@@ -2,6 +2,7 @@
 // Particles and step data for tests of the constitutive update, made by hand.
 
 #include <gtest/gtest.h>
+#include <numeric>
 
 #include <cstring>
 #include <vector>
@@ -22,7 +23,7 @@ struct Points {
   Points(std::size_t count, bool kinematic, bool averages) : averaging(averages) {
     particles.options = {false, kinematic};
     resize(particles, count);
-    step.resize(count, averaging);
+    resize_ordered(count, averaging, step);
     for (std::size_t p = 0; p < count; ++p) {
       particles.id[p] = static_cast<std::int64_t>(p);
       particles.mass[p] = 1.0;
@@ -106,12 +107,20 @@ Points<Dim> random_points(std::size_t count, const std::vector<Material>& materi
   return points;
 }
 
+/// The particles as they are stored.
+inline std::vector<std::uint32_t> all_places(std::size_t count) {
+  std::vector<std::uint32_t> places(count);
+  std::iota(places.begin(), places.end(), 0U);
+  return places;
+}
+
 /// Updates the points and returns the report.
 template <int Dim>
 StressReport update(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                     double dt, Points<Dim>& points) {
   StressReport report;
-  update_stress<Dim>(materials, settings, points.step, dt, points.particles, report);
+  const std::vector<std::uint32_t> places = all_places(points.particles.size());
+  update_stress<Dim>(materials, settings, points.step, dt, places, points.particles, report);
   return report;
 }
 

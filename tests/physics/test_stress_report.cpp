@@ -88,7 +88,7 @@ TEST(Averaging, VolumetricPartOnly) {
   Points<2> averaged(33, false, true);
   averaged.particles = own.particles;
   averaged.step = own.step;
-  averaged.step.resize(33, true);
+  resize_ordered(33, true, averaged.step);
   for (std::size_t i = 0; i < 33; ++i) {
     averaged.step.dilatation_end[i] = own.step.gradient[0][i] + own.step.gradient[3][i];
     averaged.step.dilatation_mid[i] = own.step.rate[0][i] + own.step.rate[1][i];

@@ -79,7 +79,7 @@ TEST(Messages, MaterialRanges) {
       "--set material.0.poisson=0.5: material.0.poisson: found 0.5, allowed a number >= 0 and "
       "< 0.5");
   EXPECT_EQ(override_problems("material.0.lambda=0.99"),
-            "--set material.0.lambda=0.99: material.0.lambda: found 0.99, allowed a number >= 1");
+            "--set material.0.lambda=0.99: material.0.lambda: found 0.99, allowed a number from 1 to 20");
   EXPECT_EQ(override_problems("material.0.model=\"elastic\""),
             "--set material.0.model=\"elastic\": material.0.model: found \"elastic\", allowed "
             "\"j2_mie_gruneisen\"");

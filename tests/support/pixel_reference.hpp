@@ -86,6 +86,11 @@ inline PixelCounts count_pixels_plainly(const Image& image, std::span<const doub
          : side == Side::with_void ? counts.B_void
                                    : counts.B_int)
             .back();
+      if (side == Side::inside && za != zb) ++counts.B_axial.back();
+    };
+    const auto diagonal = [&](int xa, int za, int xb, int zb) {
+      const Side side = side_of(image, index_of(image, xa, 0, za), index_of(image, xb, 0, zb));
+      if (side == Side::inside && white(xa, za) != white(xb, zb)) ++counts.D_int.back();
     };
     for (int z = 0; z < image.height; ++z) {
       for (int x = 0; x < image.width; ++x) counts.F.back() += white(x, z) ? 1 : 0;
@@ -99,6 +104,8 @@ inline PixelCounts count_pixels_plainly(const Image& image, std::span<const doub
         counts.V.back() += p || q || r || s ? 1 : 0;
         counts.V4.back() += p && q && r && s ? 1 : 0;
         counts.D.back() += (p || s ? 1 : 0) + (q || r ? 1 : 0);
+        diagonal(x - 1, z - 1, x, z);
+        diagonal(x, z - 1, x - 1, z);
       }
     }
   }
@@ -249,6 +256,7 @@ inline VoxelCounts count_voxels_plainly(const Image& image, std::span<const doub
                : side == Side::with_void ? counts.S_void
                                          : counts.S_int)
                   .back();
+            if (side == Side::inside && extent[2] == 1) ++counts.S_axial.back();
           }
         }
       }

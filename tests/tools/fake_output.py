@@ -88,10 +88,17 @@ def write_morphology(folder, times):
         hot = 1.0 / (1.0 + numpy.exp((THRESHOLDS - HOT) / 40.0))
         with h5py.File(folder / f"morphology_{number:06d}.h5", "w") as file:
             group = file.create_group("temperature")
-            group["time"], group["threshold"] = [time], THRESHOLDS
+            group["time"], group["threshold"], group["record"] = [time], THRESHOLDS, [number]
             group["A"] = [done * hot]
             group["L"] = [0.8 * done * hot * (1.0 - hot)]
             group["chi"] = [-0.01 * done * (THRESHOLDS - HOT) / 100.0 * hot * (1.0 - hot)]
+            # At 550 K and above half of chi is a matter of how pixels join.
+            group["chi4"] = group["chi"][()] * numpy.where(THRESHOLDS < 550.0, 1.0, 1.5)
+            # One hot spot more each record.
+            group["domains/record"] = numpy.full(number, number)
+            group["domains/threshold"] = numpy.full(number, 600.0)
+            group["domains/area"] = 1e-10 * numpy.arange(1.0, number + 1.0)
+            group["domains/peak"] = 650.0 + 10.0 * numpy.arange(number)
 
 
 def write_profiles(folder, times, speed=3300.0, whole=True):

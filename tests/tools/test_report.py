@@ -12,8 +12,8 @@ from fake_output import THRESHOLDS, write_output  # noqa: E402
 from poreshock_report import figures, folder, page  # noqa: E402
 
 FIGURES = ("Figure 1: temperature", "Figure 2: morphology against time", "Figure 3: the A-L-chi space",
-           "Profiles along the shock axis", "Path of the front", "Energy ledger")
-PICTURES = {"temperature.png", "morphology_time.png", "morphology_space.png", "energy.png",
+           "Temperature, time by time", "Hot spots", "Profiles along the shock axis", "Path of the front", "Energy ledger")
+PICTURES = {"hot_spots.png", "temperature.png", "morphology_time.png", "morphology_space.png", "energy.png",
             "profiles.png", "front.png"}
 
 
@@ -28,7 +28,9 @@ class Report(unittest.TestCase):
         text = page.write(self.folder).read_text()
         for title in FIGURES:
             self.assertIn(f"<h2>{title}</h2>", text)
-        self.assertEqual(text.count('src="data:image/png;base64,'), 6)
+        self.assertEqual(text.count('src="data:image/png;base64,'), 7 + 5)  # a picture each, and the frames
+        self.assertEqual(re.findall('data-time="(.*?)"', text), ["0 ns", "50 ns", "100 ns", "150 ns", "200 ns"])
+        self.assertIn("Resolution warning: at 250 K above the start", text)
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', text), [])
         self.assertNotIn("http", re.sub(r'base64,[^"]*', "", text))
         self.assertNotIn("Missing:", text)
@@ -86,6 +88,25 @@ class Report(unittest.TestCase):
         self.assertIn("timings.json cannot be read", text)
         self.assertEqual(len(folder.snapshot_times(self.folder)), 4)
         self.assertEqual(len(folder.read_morphology(self.folder)[0]), 20)
+
+    def test_hot_spots_of_the_fullest_record(self):
+        write_output(self.folder)
+        level, area, peak, dimension, time = folder.read_hot_spots(self.folder)
+        self.assertEqual((len(level), dimension), (20, 2))
+        self.assertAlmostEqual(time, 200e-9)
+        self.assertEqual((area[0], peak[-1]), (1e-10, 840.0))
+        (self.folder / "morphology_000020.h5").unlink()
+        self.assertEqual(len(folder.read_hot_spots(self.folder)[0]), 19)
+
+    def test_narrow_samples_are_stretched_and_wide_ones_are_not(self):
+        for width, height in ((1e-3, 5e-3), (0.5e-3, 2.5e-3), (1e-3, 1e-3), (5e-3, 1e-3)):
+            wide, high, to_scale = figures.panel_size(width, height)
+            self.assertTrue(to_scale)
+            self.assertAlmostEqual(wide / high, width / height)
+            self.assertLessEqual(high, 7.0)
+        wide, high, to_scale = figures.panel_size(40e-6, 5e-3)
+        self.assertFalse(to_scale)
+        self.assertLessEqual(high, 7.0)
 
     def test_history_is_read_by_name_without_its_cut_row(self):
         write_output(self.folder)

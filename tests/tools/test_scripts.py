@@ -8,7 +8,8 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPTS = [*(ROOT / "jobscripts").glob("*.sh"), ROOT / ".ci/run",
+SOURCED = ("resubmit.sh",)
+SCRIPTS = [*(path for path in (ROOT / "jobscripts").glob("*.sh") if path.name not in SOURCED), ROOT / ".ci/run",
            *(ROOT / "tools" / name for name in ("build", "cores", "install", "mpirun", "run", "test"))]
 
 # Counts USR1 like the ranks of a run: each is noted, and the first ends it a moment later.
@@ -147,7 +148,7 @@ class Commands(unittest.TestCase):
 
     def chain(self, on_signal):
         """Lines and exit code of a chained Slurm job that is told that its time is over."""
-        for name in ("tools/stop_with_checkpoint.sh", "jobscripts/slurm_chain.sh"):
+        for name in ("tools/stop_with_checkpoint.sh", "jobscripts/resubmit.sh", "jobscripts/slurm_chain.sh"):
             self.script(self.root / name, (ROOT / name).read_text())
         # In the place of a run: `on_signal` is what USR1 makes it do; without it the run ends by itself.
         wait = f"trap '{on_signal}; exit 0' USR1; echo ready; while :; do sleep 0.05; done" if on_signal else ""

@@ -156,8 +156,23 @@ Slab<Dim> make_slab(const Cloud<Dim>& cloud, const std::vector<std::uint32_t>& s
   const int rows = slab.grid->last_row() - slab.grid->first_row();
   sort_by_cell(cell, static_cast<std::size_t>(rows) * cloud.shape.row_size, slab.particles.grain,
                slab.particles.id, slab.cells);
-  slab.step.resize(slab.particles.size(), true);
+  slab.step.averaged_pressure.resize(slab.particles.size());
   return slab;
+}
+
+/// Brings the ordered results of a gather over all rows into the order of storage.
+template <int Dim>
+void store_like_particles(Slab<Dim>& slab) {
+  const auto bring = [&](std::vector<double>& column) {
+    const std::vector<double> ordered = column;
+    if (ordered.size() != slab.particles.size()) return;  // not in use
+    for (std::size_t k = 0; k < ordered.size(); ++k) column[slab.cells.order[k]] = ordered[k];
+  };
+  for (auto& column : slab.step.gradient) bring(column);
+  for (auto& column : slab.step.rate) bring(column);
+  for (auto* column : {&slab.step.heat, &slab.step.dilatation_end, &slab.step.dilatation_mid}) {
+    bring(*column);
+  }
 }
 
 /// The same, stored in the order of ids.

@@ -5,6 +5,7 @@
 #include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
+#include "poreshock/transfer/sweep.hpp"
 #include "transfer/cloud.hpp"
 #include "transfer/motion.hpp"
 
@@ -29,8 +30,9 @@ NodeGain transfer_cycle(const Cloud<Dim>& cloud, double inverse_quantum, Kick&& 
     average_dilatation(slab.particles, slab.cells, cloud.transfer, *slab.grid, *slab.averages);
   }
   grid_to_particles<Dim>(*slab.grid, averaging ? slab.averages.get() : nullptr, slab.cells,
-                         cloud.transfer, Vector<Dim>::Zero(), time_step, inverse_quantum,
-                         slab.particles, slab.step, slab.filter_heat);
+                         all_rows(*slab.grid), cloud.transfer, Vector<Dim>::Zero(), time_step,
+                         inverse_quantum, slab.particles, slab.step, slab.filter_heat);
+  store_like_particles(slab);
   return gain;
 }
 

@@ -4,6 +4,7 @@
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
+#include "poreshock/transfer/sweep.hpp"
 #include "support/scalar_transfer.hpp"
 #include "transfer/cloud.hpp"
 #include "transfer/motion.hpp"
@@ -131,8 +132,9 @@ void compare_gather(const Choice& choice, double damping) {
   Vector<Dim> grid_velocity = Vector<Dim>::Zero();
   grid_velocity[Dim - 1] = -300.0;
   prepare_gather<Dim>(cloud.transfer, damped, *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, nullptr, slab.cells, cloud.transfer, grid_velocity, dt, 1.0,
-                         slab.particles, slab.step, slab.filter_heat);
+  grid_to_particles<Dim>(*slab.grid, nullptr, slab.cells, all_rows(*slab.grid), cloud.transfer,
+                         grid_velocity, dt, 1.0, slab.particles, slab.step, slab.filter_heat);
+  store_like_particles(slab);
   Comparison worst;
   for (std::size_t local = 0; local < slab.particles.size(); ++local) {
     const auto p = static_cast<std::size_t>(slab.particles.id[local]);

@@ -93,9 +93,10 @@ void compare_dilatation(const Choice& choice, double share) {
   set_motion(motion, *slab.grid);
   prepare_gather<Dim>(cloud.transfer, 0.0, *slab.grid);
   average_dilatation(slab.particles, slab.cells, cloud.transfer, *slab.grid, *slab.averages);
-  grid_to_particles<Dim>(*slab.grid, slab.averages.get(), slab.cells, cloud.transfer,
-                         Vector<Dim>::Zero(), test::time_step, 1.0, slab.particles, slab.step,
-                         slab.filter_heat);
+  grid_to_particles<Dim>(*slab.grid, slab.averages.get(), slab.cells, all_rows(*slab.grid),
+                         cloud.transfer, Vector<Dim>::Zero(), test::time_step, 1.0, slab.particles,
+                         slab.step, slab.filter_heat);
+  store_like_particles(slab);
   std::vector<double> end, middle;
   for (std::size_t p = 0; p < cloud.particles.size(); ++p) {
     const auto g = reference::grid_to_particle<Dim>(cloud.shape, motion, cloud.particles, p,

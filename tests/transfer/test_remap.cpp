@@ -30,8 +30,10 @@ void expect_textbook(const Choice& choice) {
   test::kick_nodes<Dim>(false, test::no_kick<Dim>, *slab.grid);
   slab.grid->fill_periodic_images();
   const Vector<Dim> grid_velocity = Vector<Dim>::Constant(-300.0);
+  resize_ordered(slab.particles.size(), false, slab.step);
   gather_remapped<Dim>(*slab.grid, slab.cells, cloud.transfer, grid_velocity, dt, slab.particles,
                        slab.step);
+  store_like_particles(slab);
   for (int a = 0; a < Dim; ++a) {
     const auto mean =
         reference::nodal_mean(cloud.shape, cloud.particles, cloud.particles.velocity[a]);

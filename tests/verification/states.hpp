@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "poreshock/particles/derived.hpp"
-#include "poreshock/solver/records.hpp"
+#include "poreshock/solver/checksum.hpp"
 #include "support/runs.hpp"
 #include "verification/verify.hpp"
 

@@ -3,6 +3,8 @@
 // body force that this motion needs. The elastic law of the program, the rotation of each step by
 // the polar factor of its deformation, is the Jaumann rate as the step goes to zero.
 
+#include <numeric>
+
 #include "verification/states.hpp"
 
 namespace poreshock::test {
@@ -191,7 +193,9 @@ TEST(Vortex, OneParticleInSimpleShearFollowsTheJaumannRate) {
   const int steps = 4000;
   const double rate = 1.0, dt = 2.0 / steps;
   StepData<2>& step = sim.step_data;
-  step.resize(sim.particles.size(), false);
+  resize_ordered(sim.particles.size(), false, step);
+  std::vector<std::uint32_t> places(sim.particles.size());
+  std::iota(places.begin(), places.end(), 0U);
   for (auto& column : step.gradient) std::fill(column.begin(), column.end(), 0.0);
   for (auto& column : step.rate) std::fill(column.begin(), column.end(), 0.0);
   std::fill(step.heat.begin(), step.heat.end(), 0.0);
@@ -200,7 +204,7 @@ TEST(Vortex, OneParticleInSimpleShearFollowsTheJaumannRate) {
   double error = 0.0, objective = 0.0;
   for (int k = 1; k <= steps; ++k) {
     StressReport report;
-    update_stress(sim.materials, sim.stress_settings, step, dt, sim.particles, report);
+    update_stress(sim.materials, sim.stress_settings, step, dt, places, sim.particles, report);
     const double kappa = rate * dt * k;
     const double xx = sim.particles.deviator[0][0] / shear;
     const double xy = sim.particles.deviator[3][0] / shear;

@@ -116,6 +116,7 @@ def parse_verify(text):
 
 def tests(build):
     """Rows that the tests of the label `verification` print, and one for a test that fails."""
+    subprocess.run(["cmake", "--build", build, "--target", "slow_tests"], capture_output=True, check=True)
     done = subprocess.run(["ctest", "--test-dir", build, "-L", "verification", "-V"], text=True, capture_output=True,
                           check=False)
     # The same test on several numbers of ranks prints the same lines.

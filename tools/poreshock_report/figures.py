@@ -53,35 +53,61 @@ def pixel_mean(x, y, values, extent, pixel):
     return mean.T, spans
 
 
+def read_slice(path):
+    """The plane piece of a snapshot that is drawn."""
+    piece = slice_of(reader.read_particles(path, ("position", "temperature", "mass", "density")))
+    if len(piece[0]) == 0:
+        raise reader.Missing(f"{path.name} holds no particles")
+    return piece
+
+
+def common_extent(pieces):
+    """Lateral and axial range of all pieces, half a particle beyond the outermost ones, so that these do
+    not lie on the edges of pixels."""
+    half = 0.5 * max(piece[3] for piece in pieces)
+    return [(min(piece[axis].min() for piece in pieces) - half, max(piece[axis].max() for piece in pieces) + half)
+            for axis in (0, 1)]
+
+
+def panel_size(width, height):
+    """Width and height in inches of one panel of a sample of this shape, and whether it is to scale."""
+    high = numpy.clip(4.5 * height / width, 1.5, 7.0)
+    if high * width / height >= 0.5:
+        return high * width / height, high, True
+    return 0.9, high, False  # so narrow that it is stretched
+
+
 def temperature(folder):
     """Snapshots side by side, coloured by temperature (Figure 1 of the paper)."""
     times = reader.snapshot_times(folder)
-    names = ("position", "temperature", "mass", "density")
-    chosen = [(times[i][0], slice_of(reader.read_particles(times[i][1], names)))
-              for i in choose_snapshots(times)]
-    if any(len(piece[0]) == 0 for _, piece in chosen):
-        raise reader.Missing("a snapshot holds no particles")
-    extent = [(min(piece[axis].min() for _, piece in chosen),
-               max(piece[axis].max() for _, piece in chosen)) for axis in (0, 1)]
+    return temperature_panels([times[i] for i in choose_snapshots(times)])
+
+
+def temperature_panels(snapshots):
+    """The snapshots, a list of (time, path), side by side on one scale of temperature."""
+    chosen = [(time, read_slice(path)) for time, path in snapshots]
+    extent = common_extent([piece for _, piece in chosen])
     width, height = (high - low for low, high in extent)
     pixel = max(max(piece[3] for _, piece in chosen), max(width, height) / 1500.0)
     everything = numpy.concatenate([piece[2] for _, piece in chosen])
     low, high = everything.min(), numpy.percentile(everything, 99.5)
     low = min(low, high - 1.0)
 
-    panel = numpy.clip(6.5 * width / height, 0.9, 4.5)
-    figure, axes = plt.subplots(1, len(chosen), sharey=True, squeeze=False, layout="compressed",
-                                figsize=(panel * len(chosen) + 2.4, panel * height / width + 1.0))
+    panel, tall, to_scale = panel_size(width, height)
+    figure, axes = plt.subplots(1, len(chosen), sharey=True, squeeze=False,
+                                layout="compressed" if to_scale else "constrained",
+                                figsize=((panel + 0.15) * len(chosen) + 2.0, tall + 1.0))
     for axis, (time, piece) in zip(axes[0], chosen):
         mean, spans = pixel_mean(piece[0], piece[1], piece[2], extent, pixel)
         image = axis.imshow(mean, origin="lower", extent=[1e3 * end for span in spans for end in span],
-                            cmap="turbo", vmin=low, vmax=high, interpolation="nearest")
+                            cmap="turbo", vmin=low, vmax=high, interpolation="nearest",
+                            aspect="equal" if to_scale else "auto")
         axis.set(title=f"{1e9 * time:.4g} ns",
                  xlim=[1e3 * end for end in extent[0]], ylim=[1e3 * end for end in extent[1]])
         axis.grid(False)
-        axis.locator_params(axis="x", nbins=3)
+        axis.locator_params(axis="x", nbins=3 if panel > 0.8 else 1)
     axes[0][0].set_ylabel("along the shock axis [mm]")
-    axes[0][len(chosen) // 2].set_xlabel("across [mm]")
+    axes[0][len(chosen) // 2].set_xlabel("across [mm]" + ("" if to_scale else ", stretched"))
     figure.colorbar(image, ax=axes, label="temperature [K]", extend="max", shrink=0.8, pad=0.01)
     return figure
 
@@ -124,6 +150,34 @@ def morphology_space(folder, start):
     axis.view_init(elev=22, azim=-58)
     axis.set_box_aspect(None, zoom=0.82)
     axis.legend(title=f"threshold - {start:.4g} K", loc="upper left")
+    return figure
+
+
+def unresolved(folder, start):
+    """Labels of the rises at which chi4 and chi differ by a quarter of chi or more on the average over the run."""
+    _, threshold, arrays = reader.read_morphology(folder, names=("chi", "chi4"))
+    found = []
+    for i, label in nearest_rises(threshold, start):
+        apart = numpy.abs(arrays["chi4"][:, i] - arrays["chi"][:, i]).mean()
+        if apart > 0.25 * numpy.abs(arrays["chi"][:, i]).mean():
+            found.append(label)
+    return found
+
+
+def hot_spots(folder, start):
+    """Number of hot spots above a size, and size against peak, by level."""
+    level, size, peak, dimension, time = reader.read_hot_spots(folder)
+    diameter = 2e6 * (numpy.sqrt(size / numpy.pi) if dimension == 2 else numpy.cbrt(0.75 * size / numpy.pi))
+    figure, axes = plt.subplots(1, 2, figsize=(8.4, 3.9), layout="constrained")
+    for value in numpy.unique(level):
+        own = numpy.sort(diameter[level == value])[::-1]
+        axes[0].loglog(own, numpy.arange(1, len(own) + 1), drawstyle="steps-post", label=f"{value - start:.4g} K")
+        axes[1].loglog(diameter[level == value], peak[level == value] - start, ".", markersize=3)
+    same = "area" if dimension == 2 else "volume"
+    axes[0].set(xlabel=rf"diameter of equal {same} [$\mu$m]", ylabel="hot spots at least as large",
+                title=f"at {1e9 * time:.4g} ns")
+    axes[1].set(xlabel=rf"diameter of equal {same} [$\mu$m]", ylabel=f"peak - {start:.4g} K [K]")
+    axes[0].legend(title=f"threshold - {start:.4g} K", fontsize=9)
     return figure
 
 

@@ -89,6 +89,38 @@ def read_particles(path, names):
         raise Missing(f"{path.name} cannot be read: {error}") from None
 
 
+def _spots_of(path, field):
+    """Hot spots of the record of a file that has the most of them: (number, columns, time), or None without any."""
+    with h5py.File(path, "r") as file:
+        group = file[field]["domains"]
+        record = group["record"][()]
+        if len(record) == 0:
+            return None
+        most = numpy.bincount(record).argmax()
+        size = "area" if "area" in group else "volume"
+        columns = [group[name][()][record == most] for name in ("threshold", size, "peak")]
+        times, records = (numpy.ravel(file[field][name][()]) for name in ("time", "record"))
+        return len(columns[0]), columns + [2 if size == "area" else 3], float(times[records == most][0])
+
+
+def read_hot_spots(folder, field="temperature"):
+    """Level (in the unit of the field), area (m^2) or volume (m^3) and peak of all hot spots of the record with the
+    most of them, the number of dimensions, and the time of the record (s)."""
+    whole = folder / "morphology.h5"
+    paths = [whole] if whole.exists() else sorted(folder.glob("morphology_*.h5"))
+    best = None
+    for path in paths:
+        try:
+            found = _spots_of(path, field)
+        except (OSError, KeyError, IndexError, ValueError):
+            continue  # not one of ours, cut short, or without a list
+        if found and (best is None or found[0] > best[0]):
+            best = found
+    if best is None:
+        raise Missing("no record lists hot spots (the scene needs [morphology] hot_spots)")
+    return *best[1], best[2]
+
+
 def _read_records(path, field, names):
     with h5py.File(path, "r") as file:
         group = file[field]

@@ -9,7 +9,7 @@ import numpy
 
 from . import figures
 from . import folder as reader
-from . import profile_figures, profiles
+from . import frames, profile_figures, profiles
 
 STYLE = """
 :root { color-scheme: light; }
@@ -22,8 +22,11 @@ figcaption, .note { color: #444; font-size: .92rem; }
 .missing { background: #fff4e0; border-left: 4px solid #d08700; padding: .4rem .8rem; }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .92rem; }
 th, td { text-align: left; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid #e2e2e2; }
+.hidden { display: none; } .slider { display: flex; gap: .8rem; align-items: center; margin: .4rem 0; }
+.slider input { flex: 1; } .slider output { min-width: 5.5rem; font-variant-numeric: tabular-nums; }
+#frames img { max-height: 85vh; width: auto; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
-@media print { body { max-width: none; font-size: 11pt; padding: 0; }
+@media print { .slider, #frames figure:not(:last-of-type) { display: none; } body { max-width: none; font-size: 11pt; padding: 0; }
                section { break-inside: avoid; } img { max-height: 22cm; } }
 """
 
@@ -61,6 +64,28 @@ def picture(folder, name, title, caption, draw):
     code = base64.b64encode(data.getvalue()).decode()
     return (f'{head}<figure><img src="data:image/png;base64,{code}" alt="{html.escape(title)}">'
             f"<figcaption>{html.escape(caption)}</figcaption></figure></section>")
+
+
+def frames_section(folder):
+    """Section with the snapshots and their slider."""
+    title = "Temperature, time by time"
+    try:
+        return f"<section><h2>{title}</h2>{frames.section(folder)}</section>"
+    except reader.Missing as reason:
+        return f"<section><h2>{title}</h2>{missing(title, reason)}</section>"
+
+
+def resolution_note(folder, start):
+    """A warning where chi depends on how pixels join, that is where the pattern is not resolved."""
+    try:
+        poor = figures.unresolved(folder, start)
+    except reader.Missing:
+        return ""
+    if not poor:
+        return ""
+    return (f'<p class="note">Resolution warning: at {html.escape(", ".join(poor))} above the start, chi4 (hot pixels join over '
+            "sides) and chi (over corners too) differ by a quarter of chi or more while the run lasts: their pattern is "
+            "not resolved by the pixels.</p>")
 
 
 def table(head, rows):
@@ -146,11 +171,15 @@ def write(folder):
         picture(folder, "temperature", "Figure 1: temperature", "Particles coloured by temperature; "
                 "one scale for all, up to the 99.5 percentile. The shock travels upwards from the wall.",
                 lambda: figures.temperature(folder)),
+        frames_section(folder),
         picture(folder, "morphology_time", "Figure 2: morphology against time", "Area A, boundary length L and "
                 "Euler characteristic of the region hotter than the threshold, per material pixel.",
                 lambda: figures.morphology_time(folder, start)),
         picture(folder, "morphology_space", "Figure 3: the A-L-chi space", "The curves of Figure 2 without "
                 "the time; every record is a dot.", lambda: figures.morphology_space(folder, start)),
+        resolution_note(folder, start),
+        picture(folder, "hot_spots", "Hot spots", "Left: how many hot domains are at least as large. Right: size and peak of "
+                "each, at the record with the most of them.", lambda: figures.hot_spots(folder, start)),
         picture(folder, "profiles", "Profiles along the shock axis", "Averages over rows of cells: velocity, "
                 "temperature and fluctuation weighted with mass, stress with volume (compression positive). The "
                 "fluctuation is the kinetic energy of the deviation from the mean velocity of the row.",

@@ -40,6 +40,11 @@ void sum(std::vector<std::int64_t>& values, MPI_Comm communicator);
 /// Copies rank 0's text to all ranks. Collective.
 void broadcast(std::string& text, MPI_Comm communicator);
 
+/// True when all ranks call this within so many seconds of each other; false on those that waited
+/// in vain, after which the communicator is of no more use to them. Collective over a communicator
+/// that nothing else uses.
+bool all_arrive(double seconds, MPI_Comm communicator);
+
 /// Program version, for example "0.1.0".
 std::string version();
 /// Source revision the program was built from.

@@ -5,6 +5,7 @@
 #include <petscsys.h>
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace poreshock {
@@ -42,6 +43,9 @@ struct PhaseTable {
   std::array<long, static_cast<int>(PhaseName::count)> calls{};
   std::array<PetscLogEvent, static_cast<int>(PhaseName::count)> events{};
 };
+
+/// Largest memory this process has held so far, bytes. Not collective.
+std::int64_t peak_memory();
 
 /// Makes a table and registers its PETSc log events. Collective.
 PhaseTable make_phase_table();

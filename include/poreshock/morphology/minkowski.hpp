@@ -54,6 +54,8 @@ struct PixelCounts {
   std::vector<std::int64_t> B_int;    ///< white-black edges between two material pixels
   std::vector<std::int64_t> B_void;   ///< white-void edges
   std::vector<std::int64_t> B_frame;  ///< white edges on the frame of the map
+  std::vector<std::int64_t> B_axial;  ///< those of B_int that a line along the shock axis crosses
+  std::vector<std::int64_t> D_int;    ///< white-black diagonal pairs of two material pixels
 };
 
 /// Counts of one block in one pass. Blocks of a tiling add up to the counts of the whole map.
@@ -66,11 +68,13 @@ void add(const PixelCounts& b, PixelCounts& a);
 
 /// Minkowski functionals per material pixel.
 struct Minkowski {
-  std::vector<double> A, L, chi, chi4;
+  std::vector<double> A, L, L_crofton, chi, chi4;
 };
 
-/// A = F/N, L = B_int/N, chi = (V-E+F)/N, chi4 = (E-3F+V4)/N; all zero when N = 0.
-/// Not collective.
+/// A = F/N, L = B_int/N, L_crofton = pi/8 (B_int + D_int/sqrt(2))/N, chi = (V-E+F)/N, chi4 =
+/// (E-3F+V4)/N; all zero when N = 0. L is 4/pi too long for boundaries without direction; L_crofton
+/// counts crossings of lines in four directions and is within -5.4 ... +2.4 % for straight ones.
+/// Ohser and Muecklich, Statistical Analysis of Microstructures (2000). Not collective.
 Minkowski functionals(const PixelCounts& counts);
 
 /// A block of whole voxel layers of a global map, with one extra layer above it from the neighbour.
@@ -100,6 +104,7 @@ struct VoxelCounts {
   std::vector<std::int64_t> S_int;    ///< white-black faces between two material voxels
   std::vector<std::int64_t> S_void;   ///< white-void faces
   std::vector<std::int64_t> S_frame;  ///< white faces on the frame of the map
+  std::vector<std::int64_t> S_axial;  ///< those of S_int that a line along the shock axis crosses
 };
 
 /// Counts of one block in one pass. Blocks of a tiling add up to the counts of the whole map.
@@ -112,12 +117,12 @@ void add(const VoxelCounts& b, VoxelCounts& a);
 
 /// Minkowski functionals per material voxel.
 struct Minkowski3 {
-  std::vector<double> V, S, M, chi, chi6;
+  std::vector<double> V, S, S_crofton, M, chi, chi6;
 };
 
-/// V = C/N, S = S_int/N, M = (3C-2F+E)/N (first intrinsic volume: 3 for one voxel; its integral of
-/// mean curvature is pi times this), chi = (-C+F-E+V)/N, chi6 = (F-5C+E4-V8)/N; all zero when N =
-/// 0. Not collective.
+/// V = C/N, S = S_int/N, S_crofton = 2/3 S (right for surfaces without direction), M = (3C-2F+E)/N
+/// (first intrinsic volume: 3 for one voxel; its integral of mean curvature is pi times this), chi
+/// = (-C+F-E+V)/N, chi6 = (F-5C+E4-V8)/N; all zero when N = 0. Not collective.
 Minkowski3 functionals(const VoxelCounts& counts);
 
 /// Pixels in 2-D, voxels in 3-D.
@@ -145,6 +150,8 @@ void for_each_count(Counts& counts, Visitor&& visit) {
     visit(std::string_view("B_int"), counts.B_int);
     visit(std::string_view("B_void"), counts.B_void);
     visit(std::string_view("B_frame"), counts.B_frame);
+    visit(std::string_view("B_axial"), counts.B_axial);
+    visit(std::string_view("D_int"), counts.D_int);
   } else {
     visit(std::string_view("C"), counts.C);
     visit(std::string_view("F"), counts.F);
@@ -155,6 +162,7 @@ void for_each_count(Counts& counts, Visitor&& visit) {
     visit(std::string_view("S_int"), counts.S_int);
     visit(std::string_view("S_void"), counts.S_void);
     visit(std::string_view("S_frame"), counts.S_frame);
+    visit(std::string_view("S_axial"), counts.S_axial);
   }
 }
 

@@ -46,9 +46,13 @@ Path path_at(const Process& process, double threshold);
 /// thresholds, which is the mean of the field above the lowest one. Release lowers it.
 double end_of_loading(const Process& process);
 
-/// From the first time that both have to the end of loading of the slower one, or to the last time
-/// that both have when that comes earlier. Throws InputError when they share no time span.
-Window loading_window(const Process& a, const Process& b);
+/// Whose end of loading ends a time window.
+enum class Until { slower, faster };
+
+/// From the first time that both have to the end of loading of the slower (or faster) one, or to
+/// the last time that both have when that comes earlier. Throws InputError when they share no time
+/// span.
+Window loading_window(const Process& a, const Process& b, Until until = Until::slower);
 
 /// Distance of two paths over the window: at all times of either, the other interpolated linearly.
 Path distances(const Path& a, const Path& b, Window window);

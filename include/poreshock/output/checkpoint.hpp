@@ -49,7 +49,7 @@ template <int Dim>
 void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string& scene_text,
                      RunState& state, Particles<Dim>& particles);
 
-/// Header of a checkpoint, without verifying its content. InputError as above. Collective.
+/// Header of a checkpoint, which is verified before. InputError as above. Collective.
 CheckpointHeader checkpoint_header(const std::string& path, MPI_Comm communicator);
 
 /// 2 or 3; InputError as above. Collective.

@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "poreshock/output/rank_zero.hpp"
+
 namespace poreshock {
 
 enum class NumberType { float64, float32, int64, int32, uint8 };
@@ -72,7 +74,9 @@ inline constexpr std::uint64_t default_piece_bytes = std::uint64_t{1} << 30;
 
 /// A shared HDF5 file, being written (create) or read (open). All members are collective over the
 /// communicator and fail on all ranks together, and so is the destructor, which removes a file that
-/// was not finished. Number types: double, float, std::int64_t, std::int32_t, std::uint8_t.
+/// was not finished; after an exception that did not come from a member it leaves the file as it
+/// is, because the other ranks may not be there to close it. Number types: double, float,
+/// std::int64_t, std::int32_t, std::uint8_t.
 class Hdf5File {
  public:
   /// Makes a file with all its datasets and attributes (rank 0's `spec` counts). SystemError when
@@ -118,12 +122,15 @@ class Hdf5File {
  private:
   Hdf5File(std::string path, MPI_Comm communicator, bool writing);
   void open_handle(const std::string& path);
+  void agree_here(const Outcome& outcome);
   void transfer(const std::string& dataset, std::uint64_t first_row, NumberType type, void* data,
                 std::uint64_t count, std::uint64_t piece_bytes);
 
   std::string path_;
   MPI_Comm communicator_;
   bool writing_;
+  bool failed_together_ = false;  // a member threw on all ranks
+  int exceptions_;                // in flight when the file was opened
   std::int64_t handle_ =
       -1;  // an HDF5 id, kept as a plain integer so that hdf5.h stays out of here
 };

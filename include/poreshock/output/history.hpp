@@ -59,12 +59,17 @@ class HistoryWriter {
   HistoryWriter(const std::string& path, int dimension, MPI_Comm communicator,
                 std::optional<std::int64_t> restart_step = std::nullopt);
 
-  /// Appends one row, and hands it to the operating system at once.
+  /// Appends one row, and hands it to the operating system at once. A file that was removed in
+  /// between is begun again.
   void write(const HistoryRow& row);
+
+  /// Forces the rows to the disk.
+  void sync();
 
  private:
   void append(const std::string& line);
 
+  std::string path_;
   int dimension_;
   MPI_Comm communicator_;
   std::unique_ptr<FileDescriptor> file_;  // rank 0 only

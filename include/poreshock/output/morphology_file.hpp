@@ -25,6 +25,13 @@ struct SpotColumn {
   std::vector<std::int64_t> integers{};
 };
 
+/// One number per threshold.
+struct Curve {
+  std::string name;
+  std::vector<double> values;
+  std::string unit = "1";
+};
+
 /// Measurements of one field at one time; all curves have one entry per threshold.
 struct MorphologyRecord {
   std::string field;
@@ -32,8 +39,8 @@ struct MorphologyRecord {
   std::vector<double> threshold;  ///< in `unit`
   std::int64_t pixels = 0;        ///< material pixels
   std::vector<std::pair<std::string, std::vector<std::int64_t>>> counts;
-  std::vector<std::pair<std::string, std::vector<double>>> functionals;  ///< in pixel units
-  std::size_t spots = 0;                                                 ///< hot spots listed
+  std::vector<Curve> functionals;        ///< per pixel, and in physical units
+  std::size_t spots = 0;                 ///< hot spots listed
   std::vector<SpotColumn> spot_columns;  ///< `spots` rows each; none when none are asked for
 };
 
@@ -49,6 +56,7 @@ void write_morphology(const std::string& path, const RecordStamp& stamp,
 
 /// Functionals of one field over the records of a run.
 struct MorphologyCurves {
+  std::string scene;                                       ///< scene text, empty for arrays
   std::string unit;                                        ///< of the thresholds
   double pixel = 0.0;                                      ///< m, side of a pixel
   std::vector<double> threshold;                           ///< ascending

@@ -23,6 +23,8 @@ class FileDescriptor {
   const std::string& path() const { return path_; }
   /// Size of the file, bytes.
   std::uint64_t size() const;
+  /// False when the name now stands for another file or none: this one was removed or moved.
+  bool is_at(const std::string& path) const;
   /// Reads exactly `count` bytes at `offset`.
   void read(std::uint64_t offset, std::byte* data, std::size_t count) const;
   /// Writes exactly `count` bytes at `offset`.

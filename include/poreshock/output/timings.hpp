@@ -25,7 +25,9 @@ struct Timings {
   double wall_seconds = 0.0;
   std::int64_t steps = 0;
   std::int64_t particle_steps = 0;
-  double rate_per_core = 0.0;  ///< particle steps per second and rank
+  std::int64_t sleeping_steps = 0;  ///< those of them whose particle only moved
+  double bytes_per_particle = 0.0;  ///< peak memory beyond that at the start, all ranks
+  double rate_per_core = 0.0;       ///< particle steps per second and rank
   std::vector<PhaseTiming> phases;
 };
 

@@ -3,14 +3,22 @@
 // their sums do not depend on where or how particles are stored.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace poreshock {
+
+/// Rows of stencil cells: first ... last - 1.
+struct RowRange {
+  int first = 0, last = 0;
+};
 
 /// Particles cell after cell: those of cell c are order[start[c]] ... order[start[c + 1] - 1].
 struct CellOrder {
   std::vector<std::uint32_t> start;  ///< cells + 1 entries
   std::vector<std::uint32_t> order;  ///< indices into the particle columns
+  /// Rows that a step works on, of the whole grid; the particles of all others only move.
+  RowRange awake = {0, std::numeric_limits<int>::max()};
 };
 
 /// Sorts particles by (cell, grain, id). Counting sort, then insertion within a cell; cheap when

@@ -75,6 +75,10 @@ void for_each_column(ParticlesType& particles, Visitor&& visit) {
 template <int Dim>
 void resize(Particles<Dim>& particles, std::size_t count);
 
+/// Gives back memory that the columns hold beyond their length.
+template <int Dim>
+void release_spare(Particles<Dim>& particles);
+
 /// Reorders all columns: new particle k is the old particle order[k]. A shorter order drops the
 /// rest.
 template <int Dim>

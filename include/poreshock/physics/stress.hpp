@@ -2,6 +2,9 @@
 // Constitutive update of every particle: density, rotation, strength, equation of state, artificial
 // viscosity and energy.
 
+#include <limits>
+#include <span>
+
 #include "poreshock/core/fixed_point.hpp"
 #include "poreshock/particles/particles.hpp"
 #include "poreshock/scene/scene.hpp"
@@ -23,21 +26,23 @@ struct StressSettings {
 
 /// What the update reports about this rank's particles.
 struct StressReport {
-  double dt_limit = 0.0;               ///< s, largest stable next step; cfl included
+  /// s, largest stable next step; cfl included
+  double dt_limit = std::numeric_limits<double>::infinity();
   std::int64_t bad = 0;                ///< particles with a state that is not finite or inverted
   std::int64_t compression_guard = 0;  ///< particles beyond the guard of the reference curve
   std::int64_t sound_speed_guard = 0;  ///< particles whose sound speed had to be floored
   Int128 viscous_heat = 0;             ///< quanta
 };
 
-/// Advances the state over dt (numerics: incremental polar decomposition, radial return, energy
-/// from the grid's stress power with the stress of the start of the step, so that the sum of
-/// kinetic and internal energy closes). Beyond its spall strength a particle fails for good: from
-/// then on it bears neither tension nor shear. Not collective.
+/// Advances the state of the particles at `places`, indices into the columns; entry k of the step
+/// data is for places[k]. The report is added to (numerics: incremental polar decomposition, radial
+/// return, energy from the grid's stress power with the stress of the start of the step, so that
+/// the sum of kinetic and internal energy closes). Beyond its spall strength a particle fails for
+/// good: from then on it bears neither tension nor shear. Not collective.
 template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
-                   const StepData<Dim>& step, double dt, Particles<Dim>& particles,
-                   StressReport& report);
+                   const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
+                   Particles<Dim>& particles, StressReport& report);
 
 /// Pressure, viscosity zero, and the stable step of the initial state. Not collective.
 template <int Dim>

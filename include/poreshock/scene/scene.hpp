@@ -25,6 +25,8 @@ enum class VelocityTransfer { pic, flip, apic, fmpm };
 enum class VelocityUpdate { usl, musl };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class MapLattice { eulerian, lagrangian };
+enum class MapVoids { black, white, fill, exclude };
+enum class BoundaryLength { pixels, isoline };
 enum class Precision { double_precision, single_precision };
 
 /// The block of background cells.
@@ -143,6 +145,7 @@ struct TimeControl {
   double end = 0.0;  ///< s
   double cfl = 0.5;
   std::int64_t max_steps = 0;  ///< 0 = no limit
+  bool sleep = true;           ///< rows that no wave has reached only move
   bool operator==(const TimeControl&) const = default;
 };
 
@@ -167,7 +170,9 @@ struct Morphology {
   double pixel = 0.0;  ///< m, cell times a power of two (2^-3 ... 2^3); the site if lagrangian
   std::vector<MorphologyField> fields;
   MapLattice lattice = MapLattice::eulerian;  ///< pixels in space, or sites of the initial lattice
-  bool domains = false;                       ///< count hot and cold domains at all thresholds
+  MapVoids voids = MapVoids::black;           ///< in the Euler characteristic
+  BoundaryLength length = BoundaryLength::pixels;  ///< isoline: of interpolated boundaries too
+  bool domains = false;                            ///< count hot and cold domains at all thresholds
   bool operator==(const Morphology&) const = default;
 };
 

@@ -15,8 +15,10 @@ namespace poreshock {
 /// What the next progress row is computed from.
 struct Progress {
   double start_wall = 0.0;              ///< s, MPI_Wtime at the start of the run
+  std::int64_t start_memory = 0;        ///< bytes, peak_memory at the start of the run
   double row_wall = 0.0;                ///< s, at the last row
   std::int64_t particle_steps = 0;      ///< of this rank since the start
+  std::int64_t sleeping_steps = 0;      ///< those of them in rows asleep
   std::int64_t row_particle_steps = 0;  ///< at the last row
   std::int64_t first_step = 0;
   double row_communication = 0.0;  ///< s, at the last row
@@ -38,9 +40,9 @@ struct EnergyStatus {
 std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
                          const PhaseTable& phases, Progress& progress, MPI_Comm communicator);
 
-/// Timings of the whole run. Collective.
-Timings final_timings(const Clock& clock, const PhaseTable& phases, const Progress& progress,
-                      MPI_Comm communicator);
+/// Timings and memory of the whole run; `particles` are this rank's. Collective.
+Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t particles,
+                      const Progress& progress, MPI_Comm communicator);
 
 /// Table of phases: least, mean and largest seconds over the ranks, share of the whole.
 std::string timings_table(const Timings& timings);

@@ -7,6 +7,7 @@
 
 #include "poreshock/morphology/pixel_map.hpp"
 #include "poreshock/output/history.hpp"
+#include "poreshock/solver/backlog.hpp"
 #include "poreshock/solver/simulation.hpp"
 
 namespace poreshock {
@@ -15,12 +16,13 @@ namespace poreshock {
 template <int Dim>
 struct Recorder {
   std::string folder;
-  std::unique_ptr<HistoryWriter> history;
+  std::shared_ptr<HistoryWriter> history;  ///< shared with rows that wait
   std::unique_ptr<PixelGrid<Dim>> pixels;  ///< only with morphology
   HistoryRow last_row;                     ///< latest row of the history
   std::optional<double> first_total;       ///< J, total energy of the first row of this run
   double last_checkpoint_wall = 0.0;       ///< s
   std::int64_t last_checkpoint_step = -1;
+  Backlog backlog;  ///< what the disk did not take
 };
 
 /// The pixel grid of the scene's morphology; none without. Throws InputError when the map has fewer
@@ -33,25 +35,25 @@ template <int Dim>
 Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
                             std::unique_ptr<PixelGrid<Dim>> pixels, const Simulation<Dim>& sim);
 
-/// Writes what is due at the beat the clock is on (all of it at the start and the end). Collective.
+/// Writes what is due at the beat the clock is on (all of it at the start and the end). What the
+/// disk does not take waits in memory or, snapshots, is left out, with a warning; at the end it is
+/// a SystemError on all ranks. Collective.
 template <int Dim>
 void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder);
 
-/// Writes a checkpoint when one is due by steps, simulated time or wall time. Collective.
+/// Writes a checkpoint when one is due by steps, simulated time or wall time; one that the disk
+/// does not take costs a warning. Collective.
 template <int Dim>
 void checkpoint_when_due(double wall_seconds, Simulation<Dim>& sim, Recorder<Dim>& recorder);
 
-/// Writes a checkpoint now and returns its path. Collective.
+/// Writes a checkpoint now, after the records that wait, and returns its path. SystemError on all
+/// ranks when it cannot be written. Collective.
 template <int Dim>
 std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder);
 
-/// Writes failed.h5, the state that went bad. Collective.
-template <int Dim>
-void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder);
-
-/// One 64-bit checksum of all particle columns in id order, the same on any number of ranks.
+/// Writes failed.h5, the state that went bad; costs a warning when the disk does not take it.
 /// Collective.
 template <int Dim>
-std::uint64_t checksum(const Simulation<Dim>& sim);
+void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder);
 
 }  // namespace poreshock

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "poreshock/particles/cell_order.hpp"
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
@@ -19,6 +20,7 @@ struct Clock {
   double first_limit = 0.0;  ///< s, stable step of the initial state
   std::int64_t bad = 0;      ///< particles of this rank with a state gone bad
   bool on_beat = true;       ///< the last step landed on a beat or the end
+  RowRange disturbed;        ///< rows a wave has reached: this rank's until agree_on_step, then all
 };
 
 /// What all ranks know after the one reduction of a step.
@@ -27,7 +29,8 @@ struct StepAgreement {
   bool stop_asked = false;
 };
 
-/// Reduces stable step, health and stop request over all ranks in one message. Collective.
+/// Reduces stable step, disturbed rows, health and stop request over all ranks in one message.
+/// Collective.
 StepAgreement agree_on_step(bool stop_asked, Clock& clock, MPI_Comm communicator);
 
 /// The next step, s: at most the stable one, at most 1.1 times the last, fitted so that whole steps

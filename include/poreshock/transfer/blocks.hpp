@@ -254,7 +254,7 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
   PlanarBuffer<Dim, Spline, Quantities> buffer(shape);
   grid.clear();
   for_each_run(
-      particles, cells, grid,
+      particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
         Lanes sums[Quantities][blocks] = {};
@@ -296,7 +296,7 @@ void gather_blocks(const Spline& spline, const Particles<Dim>& particles, const 
   const double inverse_cell = 1.0 / shape.cell;
   BlockReader<Dim, Spline, Quantities> reader(grid, lanes);
   for_each_run(
-      particles, cells, grid,
+      particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
         reader.load(row, lateral);

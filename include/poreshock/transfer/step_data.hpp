@@ -11,26 +11,30 @@ namespace poreshock {
 template <int Dim>
 inline constexpr int rate_size = Dim == 2 ? 3 : 6;
 
-/// Per-particle results of the transfer sweeps, all of the length of the particle columns.
+/// Results of the transfer sweeps.
 template <int Dim>
 struct StepData {
+  // A particle an entry, like the particle columns:
+  std::array<std::vector<double>, Dim> residual;   ///< m/s, part the filter takes; only with FMPM
+  std::vector<double> filter_heat;                 ///< J/kg, of that part; only with FMPM
+  std::array<std::vector<double>, Dim> transport;  ///< m/s, velocity of the places; only with MUSL
+  std::vector<double> averaged_pressure;           ///< Pa, p + q averaged; only with averaging
+  // In canonical order, from the first particle of the rows that grid_to_particles took:
   std::array<std::vector<double>, Dim * Dim> gradient;   ///< 1/s, of the new velocity, row major
   std::array<std::vector<double>, rate_size<Dim>> rate;  ///< 1/s, symmetric gradient at mid-step
   std::vector<double> heat;                              ///< J/kg, filter, wall and contact heat
-  std::array<std::vector<double>, Dim> residual;   ///< m/s, part the filter takes; only with FMPM
-  std::array<std::vector<double>, Dim> transport;  ///< m/s, velocity of the places; only with MUSL
-  std::vector<double> averaged_pressure;           ///< Pa, p + q averaged; only with averaging
-  std::vector<double> dilatation_end, dilatation_mid;  ///< 1/s, averaged; only with averaging
-
-  void resize(std::size_t count, bool averaging) {
-    for (auto& column : gradient) column.resize(count);
-    for (auto& column : rate) column.resize(count);
-    heat.resize(count);
-    averaged_pressure.resize(averaging ? count : 0);
-    dilatation_end.resize(averaging ? count : 0);
-    dilatation_mid.resize(averaging ? count : 0);
-  }
+  std::vector<double> dilatation_end, dilatation_mid;    ///< 1/s, averaged; only with averaging
 };
+
+/// Makes room for `count` particles in canonical order.
+template <int Dim>
+void resize_ordered(std::size_t count, bool averaging, StepData<Dim>& step) {
+  for (auto& column : step.gradient) column.resize(count);
+  for (auto& column : step.rate) column.resize(count);
+  step.heat.resize(count);
+  step.dilatation_end.resize(averaging ? count : 0);
+  step.dilatation_mid.resize(averaging ? count : 0);
+}
 
 /// Symmetric part of a velocity gradient g[axis][direction], in the order of StepData::rate.
 template <int Dim, class Number>

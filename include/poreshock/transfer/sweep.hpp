@@ -79,13 +79,29 @@ inline std::ptrdiff_t node_offset(const GridShape& shape, int n) {
   }
 }
 
-/// Calls run(row, lateral, first, last) for every run of particles of one cell and one grain, rows
-/// in order, and row_end(row) after each row that has particles.
+/// All rows of stencil cells of a slab.
+inline RowRange all_rows(const SlabGrid& grid) {
+  return {grid.first_row(), grid.last_row()};
+}
+
+/// The rows of a slab that are awake.
+inline RowRange awake_rows(const CellOrder& cells, const SlabGrid& grid) {
+  const int first = std::clamp(cells.awake.first, grid.first_row(), grid.last_row());
+  return {first, std::clamp(cells.awake.last, first, grid.last_row())};
+}
+
+/// Place in the canonical order of the first particle of a row; of the end for last_row().
+inline std::uint32_t first_place(const CellOrder& cells, const SlabGrid& grid, int row) {
+  return cells.start[static_cast<std::size_t>(row - grid.first_row()) * grid.shape().row_size];
+}
+
+/// Calls run(row, lateral, first, last) for every run of particles of one cell and one grain in the
+/// rows of a range, rows in order, and row_end(row) after each row that has particles.
 template <int Dim, class Run, class RowEnd>
 void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const SlabGrid& grid,
-                  Run&& run, RowEnd&& row_end) {
+                  RowRange rows, Run&& run, RowEnd&& row_end) {
   const int width = grid.shape().row_size;
-  for (int row = grid.first_row(); row < grid.last_row(); ++row) {
+  for (int row = rows.first; row < rows.last; ++row) {
     const std::size_t row_cell = static_cast<std::size_t>(row - grid.first_row()) * width;
     if (cells.start[row_cell] == cells.start[row_cell + width]) continue;
     for (int lateral = 0; lateral < width; ++lateral) {
@@ -129,7 +145,7 @@ void scatter(const Spline& spline, const Particles<Dim>& particles, const CellOr
   std::vector<Lanes> buffer(block, Lanes{});
   grid.clear();
   for_each_run(
-      particles, cells, grid,
+      particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
         Lanes sums[stencil_nodes<Dim, Spline>] = {};
@@ -152,10 +168,10 @@ void scatter(const Spline& spline, const Particles<Dim>& particles, const CellOr
 /// base being the lowest. Nodes must be complete, periodic images filled. Not collective.
 template <int Dim, class Spline, class Weights, class Visit>
 void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellOrder& cells,
-                 const SlabGrid& grid, Visit&& visit) {
+                 const SlabGrid& grid, RowRange rows, Visit&& visit) {
   const GridShape& shape = grid.shape();
   for_each_run(
-      particles, cells, grid,
+      particles, cells, grid, rows,
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
         const Lanes* source = grid.row(row) + lateral;
@@ -179,7 +195,7 @@ void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrd
       [&](std::uint32_t p, const std::array<int, Dim>& base) {
         return stencil_at<Dim>(spline, particles, p, base, inverse_cell);
       },
-      particles, cells, grid, visit);
+      particles, cells, grid, awake_rows(cells, grid), visit);
 }
 
 /// Adds weight times `value` to every node of a stencil.

@@ -1,0 +1,89 @@
+#include "poreshock/solver/check_state.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// Particles of a rank that no run can have, by what is wrong with them.
+struct Unsound {
+  std::int64_t numbers = 0, places = 0, masses = 0, materials = 0;
+};
+
+template <int Dim>
+std::int64_t numbers_not_finite(const Particles<Dim>& particles) {
+  std::int64_t count = 0;
+  for_each_column(particles, [&](std::string_view, int, const auto& column) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(column[0])>, double>) {
+      for (const double x : column) count += std::isfinite(x) ? 0 : 1;
+    }
+  });
+  return count;
+}
+
+template <int Dim>
+Unsound count_unsound(const Scene& scene, const Particles<Dim>& particles) {
+  Unsound found;
+  found.numbers = numbers_not_finite(particles);
+  const auto materials = static_cast<std::int32_t>(scene.materials.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    bool inside = true;
+    for (int a = 0; a < Dim; ++a) {
+      const double x = particles.position[a][p];
+      inside = inside && x >= 0.0 && x <= scene.domain.size[a];
+    }
+    if (!inside) ++found.places;
+    if (!(particles.mass[p] > 0.0 && particles.density[p] > 0.0)) ++found.masses;
+    if (particles.material[p] < 0 || particles.material[p] >= materials) ++found.materials;
+  }
+  return found;
+}
+
+bool sound_clock(const RunState& state) {
+  return state.step >= 0 && state.beat >= 0 && std::isfinite(state.time) && state.time >= 0.0 &&
+         std::isfinite(state.last_dt) && state.last_dt >= 0.0;
+}
+
+bool same_columns(const ParticleOptions& a, const ParticleOptions& b) {
+  return a.affine == b.affine && a.back_stress == b.back_stress &&
+         a.conducted_heat == b.conducted_heat && a.failed == b.failed;
+}
+
+}  // namespace
+
+template <int Dim>
+void require_sound_state(const std::string& path, const Scene& scene,
+                         const ParticleOptions& expected, const RunState& state,
+                         const Particles<Dim>& particles, MPI_Comm communicator) {
+  const Unsound mine = count_unsound(scene, particles);
+  std::vector<std::int64_t> counts = {mine.numbers, mine.places, mine.masses, mine.materials};
+  sum(counts, communicator);
+  std::string found;
+  const auto add = [&](std::int64_t count, const char* what) {
+    if (count == 0) return;
+    found += (found.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(counts[0], "numbers that are not finite");
+  add(counts[1], "particles outside the domain");
+  add(counts[2], "particles without mass or density");
+  add(counts[3], "particles of a material that the scene does not have");
+  if (!sound_clock(state)) found += found.empty() ? "a clock before zero" : ", a clock before zero";
+  if (!same_columns(expected, particles.options)) {
+    found += std::string(found.empty() ? "" : ", ") + "columns that do not fit the scene";
+  }
+  if (found.empty()) return;
+  throw InputError(path + ": its state is not one of this scene: found " + found +
+                   "; restart from another checkpoint");
+}
+
+template void require_sound_state<2>(const std::string&, const Scene&, const ParticleOptions&,
+                                     const RunState&, const Particles<2>&, MPI_Comm);
+template void require_sound_state<3>(const std::string&, const Scene&, const ParticleOptions&,
+                                     const RunState&, const Particles<3>&, MPI_Comm);
+
+}  // namespace poreshock

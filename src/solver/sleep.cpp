@@ -1,0 +1,118 @@
+#include "poreshock/solver/sleep.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "poreshock/transfer/shape.hpp"
+#include "poreshock/transfer/sweep.hpp"
+
+namespace poreshock {
+
+namespace {
+
+/// Velocity, as a share of the sound speed, below which nothing has arrived. Round-off of a uniform
+/// motion stays a thousand times below it.
+constexpr double least_disturbance = 1.0e-12;
+
+/// True where the state before the first wave is one of uniform motion without stress that nothing
+/// but waves from the ends changes.
+bool can_sleep(const Scene& scene) {
+  for (const double a : scene.body_force) {
+    if (a != 0.0) return false;
+  }
+  for (int a = 0; a + 1 < scene.dimension; ++a) {
+    const SideKind kind = scene.boundary.lateral[a];
+    if (kind == SideKind::wall || kind == SideKind::symmetry) return false;
+  }
+  for (const MaterialParameters& material : scene.materials) {
+    if (scene.conduction.on && material.T0 != scene.materials.front().T0) return false;
+  }
+  return scene.time.sleep;
+}
+
+/// Rows next to an end that is not free, where the first wave starts.
+RowRange rows_at_ends(const Boundary& boundary, const GridShape& shape) {
+  RowRange rows = {std::numeric_limits<int>::max(), 0};
+  if (boundary.low.kind != SideKind::free) rows = {0, shape.stencil};
+  if (boundary.high.kind != SideKind::free) {
+    rows = {std::min(rows.first, shape.rows - shape.stencil), shape.rows};
+  }
+  return rows;
+}
+
+}  // namespace
+
+template <int Dim>
+RowRange disturbed_rows(const Simulation<Dim>& sim) {
+  const Scene& scene = sim.scene;
+  const GridShape& shape = sim.grid->shape();
+  if (!can_sleep(scene)) return {0, shape.rows};
+  Vector<Dim> undisturbed;
+  for (int a = 0; a < Dim; ++a) undisturbed[a] = scene.loading.frame[a];
+  undisturbed[Dim - 1] -= scene.loading.velocity;
+  double sound = std::numeric_limits<double>::infinity();
+  for (const Material& m : sim.materials) sound = std::min(sound, longitudinal_sound_speed(m));
+  const double least = least_disturbance * sound;
+  const Particles<Dim>& particles = sim.particles;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    double change = 0.0;
+    bool inside = true;  // what has left is gone before the next step
+    for (int a = 0; a < Dim; ++a) {
+      const double x = particles.position[a][p];
+      const bool periodic = a + 1 < Dim && scene.boundary.lateral[a] == SideKind::periodic;
+      inside = inside && (periodic || (x >= 0.0 && x < scene.domain.size[a]));
+      change = std::max(change, std::abs(particles.velocity[a][p] - undisturbed[a]));
+    }
+    change = inside ? change : 0.0;
+    const double y = particles.position[Dim - 1][p];
+    low = change > least && y < low ? y : low;
+    high = change > least && y > high ? y : high;
+  }
+  RowRange rows = rows_at_ends(scene.boundary, shape);
+  if (low <= high) {
+    const double inverse_cell = 1.0 / shape.cell;
+    rows.first = std::min(rows.first, stencil_base(shape.stencil, low * inverse_cell, shape.rows));
+    rows.last =
+        std::max(rows.last, stencil_base(shape.stencil, high * inverse_cell, shape.rows) + 1);
+  }
+  return rows;
+}
+
+RowRange awake_around(RowRange disturbed, const GridShape& shape) {
+  const int reach = 2 * shape.stencil;
+  return {std::max(disturbed.first, reach) - reach, std::min(disturbed.last + reach, shape.rows)};
+}
+
+template <int Dim>
+std::int64_t sleeping_particles(const Simulation<Dim>& sim) {
+  const RowRange awake = awake_rows(sim.cells, *sim.grid);
+  return std::ssize(sim.cells.order) - (first_place(sim.cells, *sim.grid, awake.last) -
+                                        first_place(sim.cells, *sim.grid, awake.first));
+}
+
+template <int Dim>
+void move_sleeping(double dt, Simulation<Dim>& sim) {
+  const RowRange awake = awake_rows(sim.cells, *sim.grid);
+  const auto move = [&](int first_row, int last_row) {
+    const std::uint32_t last = first_place(sim.cells, *sim.grid, last_row);
+    for (std::uint32_t k = first_place(sim.cells, *sim.grid, first_row); k < last; ++k) {
+      const std::uint32_t p = sim.cells.order[k];
+      for (int a = 0; a < Dim; ++a) {
+        const double v = sim.particles.velocity[a][p];
+        sim.particles.position[a][p] += dt * (v - sim.stress_settings.grid_velocity[a]);
+      }
+    }
+  };
+  move(sim.grid->first_row(), awake.first);
+  move(awake.last, sim.grid->last_row());
+}
+
+template RowRange disturbed_rows<2>(const Simulation<2>&);
+template RowRange disturbed_rows<3>(const Simulation<3>&);
+template std::int64_t sleeping_particles<2>(const Simulation<2>&);
+template std::int64_t sleeping_particles<3>(const Simulation<3>&);
+template void move_sleeping<2>(double, Simulation<2>&);
+template void move_sleeping<3>(double, Simulation<3>&);
+
+}  // namespace poreshock

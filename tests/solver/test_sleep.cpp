@@ -1,0 +1,100 @@
+// Rows that no wave has reached only move, and that changes nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "poreshock/solver/sleep.hpp"
+#include "support/runs.hpp"
+
+namespace poreshock::test {
+namespace {
+
+/// Largest difference of two runs with the same particles in any column, relative to the column's
+/// largest value. Ids tell particles apart.
+template <int Dim>
+double difference(const Simulation<Dim>& a, const Simulation<Dim>& b) {
+  std::map<std::int64_t, std::size_t> place;
+  for (std::size_t p = 0; p < b.particles.size(); ++p) place[b.particles.id[p]] = p;
+  std::vector<const void*> other;
+  for_each_column(b.particles, [&](auto, int, const auto& column) { other.push_back(&column); });
+  double worst = 0.0;
+  std::size_t k = 0;
+  for_each_column(a.particles, [&](auto, int, const auto& column) {
+    const auto& twin = *static_cast<const std::remove_cvref_t<decltype(column)>*>(other[k++]);
+    double error = 0.0, largest = 0.0;
+    for (std::size_t p = 0; p < column.size(); ++p) {
+      const double x = static_cast<double>(column[p]);
+      const double y = static_cast<double>(twin[place.at(a.particles.id[p])]);
+      error = std::max(error, std::abs(x - y));
+      largest = std::max(largest, std::abs(y));
+    }
+    if (largest > 0.0) worst = std::max(worst, error / largest);
+  });
+  return worst;
+}
+
+/// Runs with and without sleep; returns their difference and the share of particles asleep halfway.
+struct Comparison {
+  double difference, asleep;
+};
+
+Comparison compare(const Scene& scene, std::int64_t steps) {
+  Scene awake = scene;
+  awake.time.sleep = false;
+  Simulation<2> a = start<2>(scene, MPI_COMM_SELF), b = start<2>(awake, MPI_COMM_SELF);
+  advance_to(steps / 2, 0, a);
+  const double asleep =
+      static_cast<double>(sleeping_particles(a)) / static_cast<double>(a.particles.size());
+  advance_to(steps, 0, a);
+  advance_to(steps, 0, b);
+  EXPECT_EQ(sleeping_particles(b), 0);
+  EXPECT_EQ(a.particles.size(), b.particles.size());
+  EXPECT_NEAR(a.clock.time, b.clock.time, 1e-12 * b.clock.time);
+  return {difference(a, b), asleep};
+}
+
+TEST(Sleep, ChangesAPorousSampleByLessThanRoundOffDoes) {
+  const std::string tall = "sample.height=1.5e-3", domain = "domain.size=[0.2e-3, 1.6e-3]";
+  for (const char* scheme : {"transfer.velocity=apic", "transfer.velocity=flip"}) {
+    const Comparison c = compare(scene_of(porous_text(), {tall, domain, scheme}), 300);
+    EXPECT_LT(c.difference, 1e-10) << scheme;
+    EXPECT_GT(c.asleep, 0.5) << scheme;
+  }
+}
+
+TEST(Sleep, WaitsForNothingWhereMotionIsNotUniform) {
+  const Scene uniform = scene_of(porous_text());
+  const auto asleep_at_start = [](const Scene& scene) {
+    Simulation<2> sim = start<2>(scene, MPI_COMM_SELF);
+    advance_to(1, 0, sim);
+    return sleeping_particles(sim);
+  };
+  EXPECT_GT(asleep_at_start(uniform), 0);
+  for (const char* change :
+       {"body_force.acceleration=[0.0, -1e9]", "time.sleep=false", "boundary.lateral='wall'"}) {
+    std::vector<std::string> overrides = {change};
+    if (std::string(change).starts_with("boundary")) overrides.push_back("domain.periodic=false");
+    EXPECT_EQ(asleep_at_start(scene_of(porous_text(), overrides)), 0) << change;
+  }
+}
+
+TEST(Sleep, MovesABlockInFreeFlightExactly) {
+  const Scene scene = scene_of(porous_text(), {"boundary.low=free"});
+  Simulation<2> sim = start<2>(scene, MPI_COMM_SELF);
+  std::map<std::int64_t, double> height;
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    height[sim.particles.id[p]] = sim.particles.position[1][p];
+  }
+  advance_to(40, 0, sim);
+  EXPECT_EQ(sleeping_particles(sim), static_cast<std::int64_t>(sim.particles.size()));
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    EXPECT_EQ(sim.particles.velocity[1][p], -1100.0);
+    EXPECT_EQ(sim.particles.pressure[p], 0.0);
+    EXPECT_NEAR(sim.particles.position[1][p],
+                height.at(sim.particles.id[p]) - 1100.0 * sim.clock.time, 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace poreshock::test

@@ -1,0 +1,60 @@
+"""The report in a browser: headless Chromium runs its script, at the width of a phone nothing sticks out, and it is not blank."""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import matplotlib.image
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from fake_output import write_output  # noqa: E402
+from poreshock_report import page  # noqa: E402
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+FRAME = """<!DOCTYPE html><iframe id="f" src="report.html" style="width:390px;height:800px;border:0"></iframe>
+<script>document.getElementById("f").onload = function (event) {
+  document.title = "width " + event.target.contentDocument.documentElement.scrollWidth; };</script>"""
+
+
+@unittest.skipUnless(CHROMIUM, "there is no chromium to draw the page")
+class Browser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name) / "run"
+        write_output(cls.folder)
+        page.write(cls.folder)
+
+    def chromium(self, name, *options):
+        command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--allow-file-access-from-files",
+                   f"--user-data-dir={self.folder / 'browser'}", *options, f"file://{self.folder / name}"]
+        return subprocess.run(command, text=True, capture_output=True, check=True, timeout=120).stdout
+
+    def test_the_slider_shows_one_frame(self):
+        text = self.chromium("report.html", "--dump-dom")
+        self.assertRegex(text, r'<input type="range"[^>]*max="4"')
+        frames = re.findall(r'<figure data-time="([^"]*)"( class="[^"]*")?', text)
+        self.assertEqual([time for time, hidden in frames if "hidden" not in hidden], ["200 ns"])
+        self.assertEqual(len(frames), 5)
+
+    def test_nothing_sticks_out_of_a_phone(self):
+        (self.folder / "phone.html").write_text(FRAME)
+        text = self.chromium("phone.html", "--dump-dom", "--virtual-time-budget=5000")
+        self.assertIn("<title>width 390</title>", text)
+
+    def test_the_page_is_drawn(self):
+        self.chromium("report.html", "--window-size=800,3000", f"--screenshot={self.folder / 'page.png'}")
+        shot = matplotlib.image.imread(self.folder / "page.png")[:, :, :3]
+        self.assertEqual(shot.shape[:2], (3000, 800))
+        # Text and curves all the way down: no stretch of 600 rows is white throughout.
+        dark = (shot.min(axis=2) < 0.8).any(axis=1)
+        self.assertLess(int(numpy.diff(numpy.flatnonzero(numpy.concatenate([[True], dark, [True]]))).max()), 600)
+
+
+if __name__ == "__main__":
+    unittest.main()
