@@ -17,10 +17,13 @@ LONG = (SCENE.replace("max_steps = 450", "max_steps = 2000").replace("end = 500e
 
 
 class Interrupted(FaultTest):
+    text = LONG
+    sample = ""
+
     @classmethod
     def setUpClass(cls):
         super(FaultTest, cls).setUpClass()
-        cls.write("scene.toml", LONG)
+        cls.write("scene.toml", cls.text)
         cls.whole = closing_lines(cls.run_scene("scene.toml", "whole", ranks=2))
 
     def reached(self, output):
@@ -57,7 +60,7 @@ class Interrupted(FaultTest):
         self.assertEqual(closing_lines(last), self.whole)
         self.assertIn("at step 2000,", last.output)
         self.assert_records_whole("parts")
-        tell("interrupted", "a run of 2000 steps with conduction, spall, rebalance and rows asleep, on 1 rank stopped by USR1, on 3 "
-             "killed by kill -9, on 2 stopped by TERM to a rank, finished on 4",
+        tell("interrupted", f"a run of 2000 steps{self.sample} with conduction, spall, rebalance and rows asleep, on 1 rank stopped by USR1, "
+             "on 3 killed by kill -9, on 2 stopped by TERM to a rank, finished on 4",
              "asked to stop: checkpoint ...; continue with --restart latest",
              "nothing: checksum, history, morphology, profiles and snapshots are those of the run in one go")
