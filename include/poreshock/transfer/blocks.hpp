@@ -257,7 +257,7 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
       particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
-        Lanes sums[Quantities][blocks] = {};
+        alignas(64) Lanes sums[Quantities][blocks] = {};
         begin_run(row, lateral);
         for (; first != last; ++first) {
           accumulate(*first, block_weights<Dim>(spline, particles, *first, base, inverse_cell),

@@ -148,7 +148,7 @@ void scatter(const Spline& spline, const Particles<Dim>& particles, const CellOr
       particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
-        Lanes sums[stencil_nodes<Dim, Spline>] = {};
+        alignas(64) Lanes sums[stencil_nodes<Dim, Spline>] = {};
         for (; first != last; ++first) {
           const auto stencil = stencil_at<Dim>(spline, particles, *first, base, inverse_cell);
           accumulate(*first, stencil, sums);
@@ -175,7 +175,7 @@ void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellO
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
         const Lanes* source = grid.row(row) + lateral;
-        Lanes nodes[stencil_nodes<Dim, Spline>];
+        alignas(64) Lanes nodes[stencil_nodes<Dim, Spline>];
         for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
           nodes[n] = source[node_offset<Dim, Spline>(shape, n)];
         }
