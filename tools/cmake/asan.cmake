@@ -3,3 +3,4 @@ set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "")
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO
     "-O1 -g -D_GLIBCXX_ASSERTIONS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer"
     CACHE STRING "")
+set(PORESHOCK_KEEP_PLUGINS ON CACHE BOOL "")
