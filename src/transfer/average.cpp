@@ -65,7 +65,7 @@ template <int Dim, class Spline>
 void scatter_dilatation(const Spline& spline, const Particles<Dim>& particles,
                         const CellOrder& cells, const SlabGrid& grid, SlabGrid& averages) {
   using Lane = MotionLane<Dim>;
-  constexpr int velocities = 2 * Dim, blocks = stencil_blocks<Dim, Spline>;
+  constexpr int velocities = 2 * Dim;
   const double inverse_cell = 1.0 / grid.shape().cell;
   std::array<int, velocities> lanes;
   for (int a = 0; a < Dim; ++a) {
@@ -78,13 +78,11 @@ void scatter_dilatation(const Spline& spline, const Particles<Dim>& particles,
       [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
         const auto [end, mid] = divergences<Dim, Spline>(w, reader.nodes, inverse_cell);
         const double volume = unscaled<Dim, Spline>(particles.mass[p] / particles.density[p]);
-        const double volume_end = volume * end, volume_mid = volume * mid;
-        for (int b = 0; b < blocks; ++b) {
-          const Lanes weight = value_in<Dim, Spline>(w, b);
-          sums[AverageLane::volume][b] = fused(volume, weight, sums[AverageLane::volume][b]);
-          sums[AverageLane::end][b] = fused(volume_end, weight, sums[AverageLane::end][b]);
-          sums[AverageLane::mid][b] = fused(volume_mid, weight, sums[AverageLane::mid][b]);
-        }
+        std::array<double, 3> values{};
+        values[AverageLane::volume] = volume;
+        values[AverageLane::end] = volume * end;
+        values[AverageLane::mid] = volume * mid;
+        add_values(w, values, sums);
       },
       averages);
 }

@@ -46,7 +46,7 @@ inline BlockWeights<Dim, Spline> block_weights(const Spline& spline,
   BlockWeights<Dim, Spline> w;
   w.x = spline.template lanes<AlongLine>(local(0));
   w.y[0] = spline.template lanes<AcrossLines<0>>(local(1));
-  if constexpr (line_pairs < Spline >> 1) {
+  if constexpr (Spline::width > 2) {
     w.y[1] = spline.template lanes<AcrossLines<2>>(local(1));
   }
   if constexpr (Dim == 3) {
@@ -270,6 +270,18 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
       [&](int row) { buffer.flush(row, grid); });
 }
 
+/// Adds weight times value to the sums of every quantity.
+template <int Dim, class Spline, std::size_t Quantities, class Sums>
+inline void add_values(const BlockWeights<Dim, Spline>& w,
+                       const std::array<double, Quantities>& values, Sums& sums) {
+  for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) {
+    const Lanes weight = value_in<Dim, Spline>(w, b);
+    for (std::size_t q = 0; q < Quantities; ++q) {
+      sums[q][b] = fused(values[q], weight, sums[q][b]);
+    }
+  }
+}
+
 /// Scatters per-particle numbers: values(p) is an array that each node gets times the weight.
 template <int Dim, int Quantities, class Spline, class Values>
 void scatter_values(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
@@ -279,10 +291,7 @@ void scatter_values(const Spline& spline, const Particles<Dim>& particles, const
       [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
         std::array<double, Quantities> value = values(p);
         for (double& x : value) x = unscaled<Dim, Spline>(x);
-        for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) {
-          const Lanes weight = value_in<Dim, Spline>(w, b);
-          for (int q = 0; q < Quantities; ++q) sums[q][b] = fused(value[q], weight, sums[q][b]);
-        }
+        add_values(w, value, sums);
       },
       grid);
 }

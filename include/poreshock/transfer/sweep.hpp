@@ -198,14 +198,6 @@ void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrd
       particles, cells, grid, awake_rows(cells, grid), visit);
 }
 
-/// Adds weight times `value` to every node of a stencil.
-template <int Dim, class Spline>
-inline void add_weighted(const Stencil<Dim, Spline>& stencil, const Lanes& value, Lanes* sums) {
-  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-    sums[n] = fused(node_weight<Dim, Spline>(stencil, n), value, sums[n]);
-  }
-}
-
 /// Sum of weight times node over a stencil.
 template <int Dim, class Spline>
 inline Lanes interpolate(const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
