@@ -270,11 +270,11 @@ void advance(Simulation<Dim>& sim, double dt) {
   for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
     if (averaging) {
       const Phase phase(sim.phases, PhaseName::average);
-      average_pressure(sim.particles, cells, transfer, *averages, sim.step_data);
+      average_pressure(sim.particles, cells, transfer, *averages);
     }
     {
       const Phase phase(sim.phases, PhaseName::particles_to_grid);
-      particles_to_grid(sim.particles, cells, transfer, sim.step_data, grid);
+      particles_to_grid(sim.particles, cells, transfer, averages, grid);
     }
     const Phase phase(sim.phases, PhaseName::exchange);
     grid.exchange();

@@ -161,7 +161,7 @@ void sort(benchmark::State& state) {
 void scatter(benchmark::State& state) {
   Simulation<2> sim = scheme(state.range(0));
   for (auto _ : state) {
-    particles_to_grid(sim.particles, sim.cells, sim.scene.transfer, sim.step_data, *sim.grid);
+    particles_to_grid(sim.particles, sim.cells, sim.scene.transfer, sim.averages.get(), *sim.grid);
   }
   count(sim, state);
 }
@@ -169,14 +169,14 @@ void scatter(benchmark::State& state) {
 void pressure_average(benchmark::State& state) {
   Simulation<2> sim = scheme(state.range(0));
   for (auto _ : state) {
-    average_pressure(sim.particles, sim.cells, sim.scene.transfer, *sim.averages, sim.step_data);
+    average_pressure(sim.particles, sim.cells, sim.scene.transfer, *sim.averages);
   }
   count(sim, state);
 }
 
 /// Nodes in motion, as the gathers find them.
 void move_nodes(Simulation<2>& sim) {
-  particles_to_grid(sim.particles, sim.cells, sim.scene.transfer, sim.step_data, *sim.grid);
+  particles_to_grid(sim.particles, sim.cells, sim.scene.transfer, sim.averages.get(), *sim.grid);
   sim.grid->exchange();
   integrate_momentum<2>(sim.body_force, projects(sim.scene.transfer.velocity), time_step, *sim.grid,
                         sim.ledger.nodes);
