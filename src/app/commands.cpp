@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "poreshock/app/check.hpp"
+#include "poreshock/app/reference.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/core/stop_signal.hpp"
 #include "poreshock/output/checkpoint.hpp"
@@ -205,6 +206,11 @@ void declare(Command& command, CLI::App& app) {
   CLI::App* info = app.add_subcommand("info", "say what a file of this program holds");
   info->add_option("file", command.file, "HDF5 or CSV file")->required();
   info->callback([&command] { command.kind = CommandKind::info; });
+  CLI::App* materials = app.add_subcommand("materials", "list the materials of the library");
+  materials->add_option("name", command.file, "one of them, with all its numbers");
+  materials->callback([&command] { command.kind = CommandKind::materials; });
+  CLI::App* keys = app.add_subcommand("keys", "list all keys of a scene as Markdown");
+  keys->callback([&command] { command.kind = CommandKind::keys; });
 }
 
 ExitCode execute(const Command& command, MPI_Comm communicator) {
@@ -232,6 +238,13 @@ ExitCode execute(const Command& command, MPI_Comm communicator) {
       return ExitCode::success;
     case CommandKind::info:
       on_rank_zero(communicator, [&] { std::printf("%s", describe(command.file).c_str()); });
+      return ExitCode::success;
+    case CommandKind::materials:
+      on_rank_zero(communicator,
+                   [&] { std::printf("%s", describe_materials(command.file).c_str()); });
+      return ExitCode::success;
+    case CommandKind::keys:
+      on_rank_zero(communicator, [] { std::printf("%s", describe_keys().c_str()); });
       return ExitCode::success;
   }
   return ExitCode::system_failure;
