@@ -12,6 +12,7 @@ namespace {
 
 /// What a particle asleep costs beside one awake, as the partition of the rows takes it.
 constexpr double sleeping_weight = 0.07;
+constexpr double seconds_remembered = 10.0;
 
 double seconds(const PhaseTable& phases, std::initializer_list<PhaseName> names) {
   double sum = 0.0;
@@ -60,7 +61,12 @@ double seconds_to_go(const Clock& clock, double end, double wall, double all, do
     growth.slope = (work - progress.first_work) / (middle - progress.first_work_time);
   }
   growth.work += growth.slope * 0.5 * advanced;
-  return wall / (work * advanced) * work_ahead(growth, end - clock.time);
+  // Single rows swing with records and with what else the machine does.
+  const double cost = wall / (work * advanced);
+  progress.cost = progress.cost > 0.0 ? progress.cost + (cost - progress.cost) *
+                                                            (wall / (wall + seconds_remembered))
+                                      : cost;
+  return progress.cost * work_ahead(growth, end - clock.time);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Libraries outside the system's own folders, as on a cluster, are found where they were linked.
+set_target_properties(poreshock PROPERTIES INSTALL_RPATH_USE_LINK_PATH TRUE)
 install(TARGETS poreshock RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/poreshock DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY input DESTINATION ${CMAKE_INSTALL_DATADIR}/poreshock)

@@ -26,6 +26,7 @@ struct Progress {
   double row_time = 0.0;                ///< s of simulated time, at the last row
   std::int64_t row_step = 0;            ///< at the last row
   std::int64_t row_sleeping_steps = 0;  ///< at the last row
+  double cost = 0.0;        ///< s of wall time per work and simulated time, of the last rows
   double first_work = 0.0;  ///< work of a step in the first row, in awake particles of all ranks
   double first_work_time = -1.0;  ///< s of simulated time, in the middle of it; < 0 = none yet
 };
