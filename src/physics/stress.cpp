@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "flow_increments.hpp"
 #include "stress_point.hpp"
 
 namespace poreshock {
@@ -65,7 +66,7 @@ void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, d
 
 // Flattened: the loop vectorises only when all it calls is inlined, and with so many variants the
 // compiler would stop.
-template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
+template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
 [[gnu::flatten]] void update_block(const J2MieGruneisen& material,
                                    const StressSettings<Dim>& all_settings, double dt,
                                    const Columns<Dim>& all_columns, std::size_t count,
@@ -81,8 +82,7 @@ template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
   m.spall = material.spall;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    update_particle<Dim, Kinematic, Spall, Conserving, Averaging>(m, settings, dt, c, k, k,
-                                                                  results);
+    update_particle<Dim, How, Spall, Conserving, Averaging>(m, settings, dt, c, k, k, results);
   }
   reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }
@@ -149,34 +149,41 @@ void for_each_block(const Particles<Dim>& particles, std::span<const std::uint32
   }
 }
 
-template <int Dim, bool Kinematic, bool Spall>
+template <int Dim, Yielding How, bool Spall>
+void update_in_mode(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
+                    const Columns<Dim>& c, std::size_t count, StressReport& report) {
+  const bool conserving = settings.thermal == Thermal::conserving;
+  if (settings.averaging) {
+    conserving ? update_block<Dim, How, Spall, true, true>(m, settings, dt, c, count, report)
+               : update_block<Dim, How, Spall, false, true>(m, settings, dt, c, count, report);
+  } else {
+    conserving ? update_block<Dim, How, Spall, true, false>(m, settings, dt, c, count, report)
+               : update_block<Dim, How, Spall, false, false>(m, settings, dt, c, count, report);
+  }
+}
+
+template <int Dim, Yielding How, bool Spall>
 void update_all(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                 const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                 Particles<Dim>& particles, StressReport& report) {
   const Columns<Dim> all = particle_columns<Dim>(particles);
   BlockCopy<Dim> copy;
-  const bool conserving = settings.thermal == Thermal::conserving;
-  for_each_block<Dim>(particles, places,
-                      [&](std::int32_t material, std::size_t first, std::size_t count) {
-                        Columns<Dim> c = fetch<Dim>(all, places.data() + first, count, copy);
-                        set_step_columns<Dim>(step, first, c);
-                        std::visit(
-                            [&](const auto& m) {
-                              if (settings.averaging) {
-                                conserving ? update_block<Dim, Kinematic, Spall, true, true>(
-                                                 m, settings, dt, c, count, report)
-                                           : update_block<Dim, Kinematic, Spall, false, true>(
-                                                 m, settings, dt, c, count, report);
-                              } else {
-                                conserving ? update_block<Dim, Kinematic, Spall, true, false>(
-                                                 m, settings, dt, c, count, report)
-                                           : update_block<Dim, Kinematic, Spall, false, false>(
-                                                 m, settings, dt, c, count, report);
-                              }
-                            },
-                            materials[static_cast<std::size_t>(material)]);
-                        put_back<Dim>(c, places.data() + first, count, copy, all);
-                      });
+  double increments[block_size];
+  for_each_block<Dim>(
+      particles, places, [&](std::int32_t material, std::size_t first, std::size_t count) {
+        Columns<Dim> c = fetch<Dim>(all, places.data() + first, count, copy);
+        set_step_columns<Dim>(step, first, c);
+        const auto& m = std::get<J2MieGruneisen>(materials[static_cast<std::size_t>(material)]);
+        if (m.flow) {
+          plastic_increments<Dim>(materials, settings.thermal, particles,
+                                  places.subspan(first, count), c, dt, increments);
+          c.plastic_increment = increments;
+          update_in_mode<Dim, Yielding::known, Spall>(m, settings, dt, c, count, report);
+        } else {
+          update_in_mode<Dim, How, Spall>(m, settings, dt, c, count, report);
+        }
+        put_back<Dim>(c, places.data() + first, count, copy, all);
+      });
 }
 
 }  // namespace
@@ -185,14 +192,17 @@ template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                    const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                    Particles<Dim>& particles, StressReport& report) {
+  constexpr Yielding isotropic = Yielding::isotropic, kinematic = Yielding::kinematic;
   if (particles.options.failed) {
     particles.options.back_stress
-        ? update_all<Dim, true, true>(materials, settings, step, dt, places, particles, report)
-        : update_all<Dim, false, true>(materials, settings, step, dt, places, particles, report);
+        ? update_all<Dim, kinematic, true>(materials, settings, step, dt, places, particles, report)
+        : update_all<Dim, isotropic, true>(materials, settings, step, dt, places, particles,
+                                           report);
   } else {
-    particles.options.back_stress
-        ? update_all<Dim, true, false>(materials, settings, step, dt, places, particles, report)
-        : update_all<Dim, false, false>(materials, settings, step, dt, places, particles, report);
+    particles.options.back_stress ? update_all<Dim, kinematic, false>(materials, settings, step, dt,
+                                                                      places, particles, report)
+                                  : update_all<Dim, isotropic, false>(materials, settings, step, dt,
+                                                                      places, particles, report);
   }
 }
 
