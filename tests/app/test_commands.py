@@ -34,7 +34,7 @@ class Commands(ProgramTest):
 
     def test_progress_rows_go_to_a_terminal_or_are_asked_for(self):
         head = r"step +time ns +dt ns +kinetic +internal +drift"
-        short = ("run", "porous.toml", "--set", "time.max_steps=20", "--force", "--output", "rows")
+        short = ("run", "porous.toml", "--set", "time.end=7.5e-9", "--force", "--output", "rows")
         self.assertNotRegex(self.succeed(*short).output, head)
         text = self.succeed(*short, "--verbose").output
         self.assertRegex(text, head)
