@@ -167,11 +167,11 @@ std::uint64_t block_hash(const std::byte* data, std::size_t count) {
   return hash ^ (hash >> 32);
 }
 
-void write_seal(const std::string& path, MPI_Comm communicator) {
+void write_seal(const std::string& path, bool sync, MPI_Comm communicator) {
   Seal seal;
   on_rank_zero(communicator, [&] { seal.length = FileDescriptor(path, O_RDONLY).size(); });
   check_mpi(MPI_Bcast(&seal.length, 1, MPI_UINT64_T, 0, communicator), "MPI_Bcast");
-  seal.content = hash_content(path, seal.length, true, communicator);
+  seal.content = hash_content(path, seal.length, sync, communicator);
   on_rank_zero(communicator, [&] {
     SealBytes bytes{};
     std::memcpy(bytes.data(), &seal, sizeof(seal));

@@ -80,6 +80,13 @@ void prepare(const std::string& path, bool force, bool restart) {
   if (error) throw SystemError("cannot remove " + path + "/pictures: " + error.message());
 }
 
+template <class Visit>
+void for_each_record(const std::string& folder, Visit&& visit) {
+  for (const std::string_view prefix : {"snapshot_", "morphology_", "profile_"}) {
+    for (const NumberedFile& file : numbered_files(folder, prefix, 6, ".h5")) visit(file);
+  }
+}
+
 }  // namespace
 
 void require_output_folder(const std::string& path, bool force, bool restart,
@@ -94,11 +101,17 @@ void prepare_output_folder(const std::string& path, bool force, bool restart,
 
 void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {
   on_rank_zero(communicator, [&] {
-    for (const std::string_view prefix : {"snapshot_", "morphology_", "profile_"}) {
-      for (const NumberedFile& file : numbered_files(folder, prefix, 6, ".h5")) {
-        if (file.number >= first) remove_file(file.path);
-      }
-    }
+    for_each_record(folder, [&](const NumberedFile& file) {
+      if (file.number >= first) remove_file(file.path);
+    });
+  });
+}
+
+void sync_records(const std::string& folder, MPI_Comm communicator) {
+  on_rank_zero(communicator, [&] {
+    for_each_record(folder,
+                    [](const NumberedFile& file) { FileDescriptor(file.path, O_RDONLY).sync(); });
+    sync_folder(folder);
   });
 }
 

@@ -1,5 +1,6 @@
 #include "poreshock/output/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -118,16 +119,17 @@ herr_t move_piece(const RowTransfer& rows, std::uint64_t piece, hid_t dataset, h
 
 }  // namespace
 
-Hdf5File::Hdf5File(std::string path, MPI_Comm communicator, bool writing)
+Hdf5File::Hdf5File(std::string path, MPI_Comm communicator, bool writing, Durable durable)
     : path_(std::move(path)),
       communicator_(communicator),
       writing_(writing),
+      durable_(durable),
       exceptions_(std::uncaught_exceptions()) {
   open_handle(writing ? partial_name(path_) : path_);
 }
 
 Hdf5File Hdf5File::create(const std::string& path, const FileSpec& spec, MPI_Comm communicator,
-                          Replace replace) {
+                          Replace replace, Durable durable) {
   quiet_hdf5();
   on_rank_zero(communicator, [&] {
     if (replace == Replace::no && std::filesystem::exists(path)) {
@@ -139,18 +141,19 @@ Hdf5File Hdf5File::create(const std::string& path, const FileSpec& spec, MPI_Com
     try {
       create_serially(partial, spec);
       allocate_space(partial);
+      if (durable == Durable::now) FileDescriptor(partial, O_RDONLY).sync();
     } catch (...) {
       unlink(partial.c_str());
       throw;
     }
   });
-  return Hdf5File(path, communicator, true);
+  return Hdf5File(path, communicator, true, durable);
 }
 
 Hdf5File Hdf5File::open(const std::string& path, MPI_Comm communicator) {
   quiet_hdf5();
   on_rank_zero(communicator, [&] { check_readable(path); });
-  return Hdf5File(path, communicator, false);
+  return Hdf5File(path, communicator, false, Durable::now);
 }
 
 void Hdf5File::open_handle(const std::string& path) {
@@ -211,8 +214,11 @@ void Hdf5File::finish() {
   agree_here(attempt([&] { check_hdf5(H5Fclose(handle), "close " + path_); }));
   if (!writing_) return;
   const std::string partial = partial_name(path_);
-  write_seal(partial, communicator_);
-  on_rank_zero(communicator_, [&] { publish(partial, path_); });
+  // Other ranks may read through another cache, which sees what was forced to disk.
+  const bool force = durable_ == Durable::now;
+  write_seal(partial, force || size(communicator_) > 1, communicator_);
+  on_rank_zero(communicator_,
+               [&] { force ? publish(partial, path_) : rename_file(partial, path_); });
 }
 
 template <class T>

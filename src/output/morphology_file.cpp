@@ -86,8 +86,9 @@ std::string morphology_name(std::int64_t record) {
 
 void write_morphology(const std::string& path, const RecordStamp& stamp,
                       const std::vector<MorphologyRecord>& records, MPI_Comm communicator) {
-  on_rank_zero(communicator,
-               [&] { write_tables(path, format(), stamp, make_tables(stamp, records)); });
+  on_rank_zero(communicator, [&] {
+    write_tables(path, format(), stamp, make_tables(stamp, records), Durable::later);
+  });
 }
 
 MorphologyCurves read_morphology(const std::string& path, const std::string& field,

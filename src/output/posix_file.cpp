@@ -127,7 +127,6 @@ void allocate_space(const std::string& path) {
   const std::uint64_t size = file.size();
   const int error = allocate(file.get(), size);
   if (error != 0) throw_errno("take " + std::to_string(size) + " bytes for", path, error);
-  file.sync();
 }
 
 void sync_folder(const std::string& folder) {
@@ -140,9 +139,13 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
+void rename_file(const std::string& from, const std::string& to) {
+  if (rename(from.c_str(), to.c_str()) != 0) throw_errno("rename " + from + " to", to, errno);
+}
+
 void publish(const std::string& from, const std::string& to) {
   FileDescriptor(from, O_RDONLY).sync();
-  if (rename(from.c_str(), to.c_str()) != 0) throw_errno("rename " + from + " to", to, errno);
+  rename_file(from, to);
   sync_folder(folder_of(to));
 }
 

@@ -46,8 +46,9 @@ std::string profile_name(std::int64_t record) {
 
 void write_profile(const std::string& path, const RecordStamp& stamp, const Profile& profile,
                    MPI_Comm communicator) {
-  on_rank_zero(communicator,
-               [&] { write_tables(path, format(), stamp, make_tables(stamp, profile)); });
+  on_rank_zero(communicator, [&] {
+    write_tables(path, format(), stamp, make_tables(stamp, profile), Durable::later);
+  });
 }
 
 void remove_profiles_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {

@@ -197,9 +197,9 @@ std::string record_name(const TableFormat& format, std::int64_t record) {
 }
 
 void write_tables(const std::string& path, const TableFormat& format, const RecordStamp& stamp,
-                  const RecordTables& tables) {
-  Hdf5File file =
-      Hdf5File::create(path, file_spec(format, stamp, tables), MPI_COMM_SELF, Replace::yes);
+                  const RecordTables& tables, Durable durable) {
+  Hdf5File file = Hdf5File::create(path, file_spec(format, stamp, tables), MPI_COMM_SELF,
+                                   Replace::yes, durable);
   for (const auto& [group, table] : tables) {
     const std::string folder = group_folder(group);
     write_rows(folder, table.curves, file);
@@ -230,7 +230,7 @@ void remove_tables_from(const std::string& folder, const TableFormat& format, st
   stamp.record = table.records.back();
   stamp.step = table.series.at("step").integers.back();
   stamp.time = table.series.at("time").numbers.back();
-  write_tables(path, format, stamp, kept);
+  write_tables(path, format, stamp, kept, Durable::now);
 }
 
 std::int64_t collect_tables(const std::string& folder, const TableFormat& format) {
@@ -251,7 +251,7 @@ std::int64_t collect_tables(const std::string& folder, const TableFormat& format
     sort_by_record(table.curves);
     sort_by_record(table.things);
   }
-  write_tables(path, format, stamp, all);
+  write_tables(path, format, stamp, all, Durable::now);
   for (const NumberedFile& file : files) remove_file(file.path);
   return static_cast<std::int64_t>(files.size());
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "poreshock/output/hdf5_file.hpp"
 #include "poreshock/output/record_stamp.hpp"
 
 namespace poreshock {
@@ -60,7 +61,7 @@ std::string record_name(const TableFormat& format, std::int64_t record);
 /// Writes /<group>/{record, axis, curves...} and /<group>/domains/{record, things...}, replacing an
 /// older file. SystemError when it fails.
 void write_tables(const std::string& path, const TableFormat& format, const RecordStamp& stamp,
-                  const RecordTables& tables);
+                  const RecordTables& tables, Durable durable);
 
 /// Takes the records from number `first` on out of the file with all records; the file goes when it
 /// has no others. InputError when the file is damaged.

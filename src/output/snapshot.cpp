@@ -167,8 +167,8 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
                   communicator);
   }
   const RowRange rows = rows_in_rank_order(particles.size(), communicator);
-  Hdf5File file =
-      Hdf5File::create(path, file_spec(input, rows.total, floored), communicator, Replace::yes);
+  Hdf5File file = Hdf5File::create(path, file_spec(input, rows.total, floored), communicator,
+                                   Replace::yes, Durable::later);
   const auto write_integers = [&](std::string_view name, const auto& column) {
     using T = typename std::remove_cvref_t<decltype(column)>::value_type;
     if (!wanted(input.scene, name)) return;

@@ -1,6 +1,8 @@
 #include "poreshock/physics/stress.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <numeric>
 
 #include "flow_increments.hpp"
@@ -10,20 +12,55 @@ namespace poreshock {
 
 namespace {
 
-// Not part of the flattened loop.
-[[gnu::noinline]] void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count,
-                              double cell, double inverse_quantum, StressReport& report) {
+/// Numbers of one block: particles whose state is no longer one, those that met a guard, those
+/// whose heat has no small number of quanta, the quanta of the others, and the bits of the least
+/// limit.
+struct BlockSums {
+  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0, quanta = 0;
+  std::int64_t least = std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
+};
+
+// Integers only, and no jumps: then the loop vectorises without leave to reorder sums of doubles.
+[[gnu::noinline]] BlockSums sum_block(const J2MieGruneisen& m, const BlockResults& r,
+                                      std::size_t count, double cell, double inverse_quantum) {
+  // Adding it leaves a number below 2^51 rounded to even in the last bits.
+  constexpr double rounder = 0x1.8p52;
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
+  const double guard = m.eos.guard;
+  BlockSums s;
   for (std::size_t k = 0; k < count; ++k) {
     // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
     // jump over a whole slab.
-    const bool good = r.volume_ratio[k] > 0.5 && r.volume_ratio[k] < 2.0 &&
-                      r.energy[k] - r.energy[k] == 0.0 && r.limit[k] > 0.0 && r.travel[k] < cell;
-    if (!good) ++report.bad;
-    if (good && r.limit[k] < report.dt_limit) report.dt_limit = r.limit[k];
-    if (r.eta[k] > m.eos.guard) ++report.compression_guard;
-    if (r.sound_speed2[k] <= floor2) ++report.sound_speed_guard;
-    if (r.viscous[k] != 0.0) report.viscous_heat += quantise(r.viscous[k], inverse_quantum);
+    const bool good = (r.volume_ratio[k] > 0.5) & (r.volume_ratio[k] < 2.0) &
+                      (r.energy[k] - r.energy[k] == 0.0) & (r.limit[k] > 0.0) &
+                      (r.travel[k] < cell);
+    s.bad += good ? 0 : 1;
+    s.compressed += r.eta[k] > guard ? 1 : 0;
+    s.slow += r.sound_speed2[k] <= floor2 ? 1 : 0;
+    // Bits of positive numbers are in their order.
+    const std::int64_t limit = std::bit_cast<std::int64_t>(r.limit[k]);
+    s.least = good & (limit < s.least) ? limit : s.least;
+    const double scaled = r.viscous[k] * inverse_quantum;
+    s.large += (scaled < 0x1p51) & (scaled > -0x1p51) ? 0 : 1;
+    s.quanta +=
+        std::bit_cast<std::int64_t>(scaled + rounder) - std::bit_cast<std::int64_t>(rounder);
+  }
+  return s;
+}
+
+void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, double cell,
+            double inverse_quantum, StressReport& report) {
+  const BlockSums s = sum_block(m, r, count, cell, inverse_quantum);
+  report.bad += s.bad;
+  report.compression_guard += s.compressed;
+  report.sound_speed_guard += s.slow;
+  report.dt_limit = std::min(report.dt_limit, std::bit_cast<double>(s.least));
+  if (s.large == 0) {
+    report.viscous_heat += s.quanta;
+    return;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    report.viscous_heat += quantise(r.viscous[k], inverse_quantum);
   }
 }
 

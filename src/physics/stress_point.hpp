@@ -43,11 +43,11 @@ inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double 
   const double pressure = density * (viscosity.quadratic * (closing * closing) + linear * closing);
   const double Q = linear + viscosity.quadratic * closing;
   const double shock = closing > 0.0 ? Q : 0.0;
+  // What divides is the same for all particles of a loop.
   const double wave =
-      cfl * cell / (speed + shock + std::sqrt(shock * shock + sound_speed * sound_speed));
-  // 1/rate of a particle at rest is infinite, which the comparison handles.
-  const double strain = largest_strain_increment / strain_rate;
-  return {pressure, wave < strain ? wave : strain};
+      (speed + shock + std::sqrt(shock * shock + sound_speed * sound_speed)) * (1.0 / (cfl * cell));
+  const double strain = strain_rate * (1.0 / largest_strain_increment);
+  return {pressure, 1.0 / (wave > strain ? wave : strain)};
 }
 
 /// Columns of the particles and of the step as raw pointers, for the vectorised loop; null where a
@@ -251,7 +251,7 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   }
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;
-  const double sound_speed = std::sqrt(c2 + 4.0 * m.strength.shear * volume / 3.0);
+  const double sound_speed = std::sqrt(c2 + 4.0 / 3.0 * m.strength.shear * volume);
   const ViscousStep next =
       viscous_step(settings.viscosity, settings.cell, settings.cfl, density, sound_speed,
                    dilatation_end, motion.strain_rate, motion.speed);

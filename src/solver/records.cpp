@@ -3,6 +3,7 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/lattice_map.hpp"
+#include "poreshock/output/folder.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/snapshot.hpp"
@@ -160,6 +161,7 @@ void finish_records(const std::string& last_snapshot, MPI_Comm communicator,
   }
   collect_morphology(recorder.folder, communicator);
   collect_profiles(recorder.folder, communicator);
+  sync_records(recorder.folder, communicator);
 }
 
 }  // namespace
@@ -243,6 +245,7 @@ std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
                       " before the records that wait: " + recorder.backlog.reason);
   }
   recorder.history->sync();
+  sync_records(recorder.folder, sim.communicator);
   const std::string path = recorder.folder + "/" + name;
   write_checkpoint(path, sim.scene_text, run_state(sim), sim.particles, sim.communicator);
   recorder.backlog.newest_checkpoint = path;

@@ -19,29 +19,6 @@ void divide_by_volume(SlabGrid& averages) {
   averages.fill_periodic_images();
 }
 
-template <int Dim, class Spline>
-void pressure_sweeps(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                     double share, SlabGrid& averages, StepData<Dim>& step) {
-  step.averaged_pressure.resize(particles.size());
-  scatter_values<Dim, 2>(
-      spline, particles, cells,
-      [&](std::uint32_t p) {
-        const double total = particles.pressure[p] + particles.viscous_pressure[p];
-        const double volume = particles.mass[p] / particles.density[p];
-        step.averaged_pressure[p] = total;
-        return std::array{volume, volume * total};
-      },
-      averages);
-  averages.exchange();
-  divide_by_volume(averages);
-  gather_blocks<Dim, 1>(
-      spline, particles, cells, averages, {AverageLane::pressure},
-      [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, const auto& nodes) {
-        double& pressure = step.averaged_pressure[p];
-        pressure = (1.0 - share) * pressure + share * interpolate<Dim, Spline>(w, nodes[0]);
-      });
-}
-
 /// Divergences of the nodal velocities at one particle, at the end of the step and in its middle.
 template <int Dim, class Spline, class Nodes>
 inline std::array<double, 2> divergences(const BlockWeights<Dim, Spline>& w, const Nodes& nodes,
@@ -104,10 +81,19 @@ void join_motion(const SlabGrid& averages, SlabGrid& grid) {
 
 template <int Dim>
 void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
-                      const Transfer& transfer, SlabGrid& averages, StepData<Dim>& step) {
+                      const Transfer& transfer, SlabGrid& averages) {
   with_shape(transfer, [&](const auto& spline) {
-    pressure_sweeps<Dim>(spline, particles, cells, transfer.averaging, averages, step);
+    scatter_values<Dim, 2>(
+        spline, particles, cells,
+        [&](std::uint32_t p) {
+          const double volume = particles.mass[p] / particles.density[p];
+          return std::array{volume,
+                            volume * (particles.pressure[p] + particles.viscous_pressure[p])};
+        },
+        averages);
   });
+  averages.exchange();
+  divide_by_volume(averages);
 }
 
 template <int Dim>
@@ -121,10 +107,10 @@ void average_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
   if constexpr (Dim == 2) join_motion(averages, grid);
 }
 
-template void average_pressure<2>(const Particles<2>&, const CellOrder&, const Transfer&, SlabGrid&,
-                                  StepData<2>&);
-template void average_pressure<3>(const Particles<3>&, const CellOrder&, const Transfer&, SlabGrid&,
-                                  StepData<3>&);
+template void average_pressure<2>(const Particles<2>&, const CellOrder&, const Transfer&,
+                                  SlabGrid&);
+template void average_pressure<3>(const Particles<3>&, const CellOrder&, const Transfer&,
+                                  SlabGrid&);
 template void average_dilatation<2>(const Particles<2>&, const CellOrder&, const Transfer&,
                                     SlabGrid&, SlabGrid&);
 template void average_dilatation<3>(const Particles<3>&, const CellOrder&, const Transfer&,

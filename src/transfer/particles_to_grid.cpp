@@ -1,5 +1,7 @@
 #include "poreshock/transfer/particles_to_grid.hpp"
 
+#include <optional>
+
 #include "poreshock/transfer/blocks.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
 
@@ -93,14 +95,22 @@ inline void accumulate(const PointSource<Dim>& source, const BlockWeights<Dim, S
 
 template <int Dim, KineticEnergy Kinetic, class Spline>
 void sweep(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-           const StepData<Dim>& step, bool averaging, SlabGrid& grid) {
+           const SlabGrid* averages, double share, SlabGrid& grid) {
   constexpr int quantities = SumLane<Dim>::kinetic + (Kinetic != KineticEnergy::none ? 1 : 0);
   const double cell = grid.shape().cell;
+  std::optional<BlockReader<Dim, Spline, 1>> reader;
+  if (averages != nullptr) reader.emplace(*averages, std::array{AverageLane::pressure});
   scatter_blocks<Dim, quantities>(
-      spline, particles, cells, [](int, int) {},
+      spline, particles, cells,
+      [&](int row, int lateral) {
+        if (reader) reader->load(row, lateral);
+      },
       [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
-        const double pressure = averaging ? step.averaged_pressure[p]
-                                          : particles.pressure[p] + particles.viscous_pressure[p];
+        double pressure = particles.pressure[p] + particles.viscous_pressure[p];
+        if (reader) {
+          pressure =
+              (1.0 - share) * pressure + share * interpolate<Dim, Spline>(w, reader->nodes[0]);
+        }
         accumulate<Dim, Kinetic>(point_source<Dim, Kinetic, Spline>(particles, p, pressure, cell),
                                  w, sums);
       },
@@ -111,24 +121,24 @@ void sweep(const Spline& spline, const Particles<Dim>& particles, const CellOrde
 
 template <int Dim>
 void particles_to_grid(const Particles<Dim>& particles, const CellOrder& cells,
-                       const Transfer& transfer, const StepData<Dim>& step, SlabGrid& grid) {
-  const bool averaging = transfer.averaging > 0.0;
+                       const Transfer& transfer, const SlabGrid* averages, SlabGrid& grid) {
+  const double share = transfer.averaging;
   with_shape(transfer, [&]<class Spline>(const Spline& spline) {
     if constexpr (is_spline<Spline>) {
       if (transfer.velocity == VelocityTransfer::apic) {
-        return sweep<Dim, KineticEnergy::affine>(spline, particles, cells, step, averaging, grid);
+        return sweep<Dim, KineticEnergy::affine>(spline, particles, cells, averages, share, grid);
       }
       if (transfer.velocity == VelocityTransfer::pic) {
-        return sweep<Dim, KineticEnergy::plain>(spline, particles, cells, step, averaging, grid);
+        return sweep<Dim, KineticEnergy::plain>(spline, particles, cells, averages, share, grid);
       }
     }
-    sweep<Dim, KineticEnergy::none>(spline, particles, cells, step, averaging, grid);
+    sweep<Dim, KineticEnergy::none>(spline, particles, cells, averages, share, grid);
   });
 }
 
 template void particles_to_grid<2>(const Particles<2>&, const CellOrder&, const Transfer&,
-                                   const StepData<2>&, SlabGrid&);
+                                   const SlabGrid*, SlabGrid&);
 template void particles_to_grid<3>(const Particles<3>&, const CellOrder&, const Transfer&,
-                                   const StepData<3>&, SlabGrid&);
+                                   const SlabGrid*, SlabGrid&);
 
 }  // namespace poreshock

@@ -69,7 +69,7 @@ void set_number(const std::string& path, const char* dataset, hid_t type, std::s
   H5Sclose(space);
   H5Dclose(data);
   H5Fclose(file);
-  write_seal(path, self);
+  write_seal(path, false, self);
 }
 
 TEST(Fuzz, SealedNonsenseIsRefused) {

@@ -198,8 +198,8 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& averages, Sample<Dim>& 
                       s.settings.inverse_energy_quantum, averages, s.heat_flow, s.particles,
                       s.conduction);
   }
-  if (averaging) average_pressure(s.particles, s.cells, transfer, averages, s.step);
-  particles_to_grid(s.particles, s.cells, transfer, s.step, grid);
+  if (averaging) average_pressure(s.particles, s.cells, transfer, averages);
+  particles_to_grid(s.particles, s.cells, transfer, averaging ? &averages : nullptr, grid);
   grid.exchange();
   integrate_momentum<Dim>(body_force, projects(transfer.velocity), dt, grid, s.ledger);
   apply_boundaries<Dim>(s.scene.boundary, s.settings.grid_velocity, grid, s.ledger);

@@ -155,7 +155,7 @@ TEST(Checkpoint, NewerFormatIsRefused) {
     H5Aclose(attribute);
     H5Fclose(file);
   });
-  write_seal(path, world);
+  write_seal(path, true, world);
   EXPECT_TRUE(contains(refusal(path), "newer poreshock")) << refusal(path);
 }
 

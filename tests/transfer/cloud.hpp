@@ -10,8 +10,10 @@
 #include "poreshock/grid/slab_grid.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
+#include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/shape.hpp"
 #include "poreshock/transfer/step_data.hpp"
+#include "poreshock/transfer/sweep.hpp"
 #include "support/shuffle.hpp"
 
 namespace poreshock::test {
@@ -156,7 +158,6 @@ Slab<Dim> make_slab(const Cloud<Dim>& cloud, const std::vector<std::uint32_t>& s
   const int rows = slab.grid->last_row() - slab.grid->first_row();
   sort_by_cell(cell, static_cast<std::size_t>(rows) * cloud.shape.row_size, slab.particles.grain,
                slab.particles.id, slab.cells);
-  slab.step.averaged_pressure.resize(slab.particles.size());
   return slab;
 }
 
@@ -173,6 +174,23 @@ void store_like_particles(Slab<Dim>& slab) {
   for (auto* column : {&slab.step.heat, &slab.step.dilatation_end, &slab.step.dilatation_mid}) {
     bring(*column);
   }
+}
+
+/// What a particle of this slab takes of the nodal averages of the pressure, Pa.
+template <int Dim>
+std::vector<double> averaged_pressure(const Cloud<Dim>& cloud, const Slab<Dim>& slab) {
+  std::vector<double> result(slab.particles.size());
+  const double share = cloud.transfer.averaging;
+  with_shape(cloud.transfer, [&]<class Spline>(const Spline& spline) {
+    gather<Dim>(spline, slab.particles, slab.cells, *slab.averages,
+                [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
+                  const double own =
+                      slab.particles.pressure[p] + slab.particles.viscous_pressure[p];
+                  const Lanes mean = interpolate<Dim, Spline>(stencil, nodes);
+                  result[p] = (1.0 - share) * own + share * mean[AverageLane::pressure];
+                });
+  });
+  return result;
 }
 
 /// The same, stored in the order of ids.

@@ -18,14 +18,15 @@ inline constexpr double time_step = 2e-9;  // s
 template <int Dim, class Kick>
 NodeGain transfer_cycle(const Cloud<Dim>& cloud, double inverse_quantum, Kick&& kick,
                         MPI_Comm communicator, Slab<Dim>& slab) {
-  particles_to_grid(slab.particles, slab.cells, cloud.transfer, slab.step, *slab.grid);
+  const bool averaging = cloud.transfer.averaging > 0.0;
+  particles_to_grid(slab.particles, slab.cells, cloud.transfer,
+                    averaging ? slab.averages.get() : nullptr, *slab.grid);
   slab.grid->exchange();
   NodeGain gain = kick_nodes<Dim>(projects(cloud.transfer.velocity), kick, *slab.grid);
   for (double* value : {&gain.work, &gain.heat}) {
     MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_SUM, communicator);
   }
   prepare_gather<Dim>(cloud.transfer, damped_share(cloud.transfer, time_step), *slab.grid);
-  const bool averaging = cloud.transfer.averaging > 0.0;
   if (averaging) {
     average_dilatation(slab.particles, slab.cells, cloud.transfer, *slab.grid, *slab.averages);
   }

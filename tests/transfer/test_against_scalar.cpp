@@ -1,6 +1,7 @@
 // The kernels against plain loops over particles and nodes.
 #include <gtest/gtest.h>
 
+#include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
@@ -54,16 +55,19 @@ void compare_sums(const Choice& choice, double averaging) {
   Cloud<Dim> cloud = make_cloud<Dim>(choice);
   cloud.transfer.averaging = averaging;
   Slab<Dim> slab = make_slab(cloud, world);
-  std::vector<double> pressure;
-  for (std::size_t p = 0; p < cloud.particles.size(); ++p) {
-    pressure.push_back(averaging > 0.0
-                           ? 1e9 * static_cast<double>(p % 17)
-                           : cloud.particles.pressure[p] + cloud.particles.viscous_pressure[p]);
+  std::vector<double> pressure = cloud.particles.pressure;
+  for (std::size_t p = 0; p < pressure.size(); ++p) {
+    pressure[p] += cloud.particles.viscous_pressure[p];
   }
-  for (std::size_t p = 0; p < slab.particles.size(); ++p) {
-    slab.step.averaged_pressure[p] = pressure[static_cast<std::size_t>(slab.particles.id[p])];
+  if (averaging > 0.0) {
+    average_pressure(slab.particles, slab.cells, cloud.transfer, *slab.averages);
+    const auto mean = reference::average(cloud.shape, cloud.particles, pressure);
+    for (std::size_t p = 0; p < pressure.size(); ++p) {
+      pressure[p] = (1.0 - averaging) * pressure[p] + averaging * mean[p];
+    }
   }
-  particles_to_grid(slab.particles, slab.cells, cloud.transfer, slab.step, *slab.grid);
+  particles_to_grid(slab.particles, slab.cells, cloud.transfer,
+                    averaging > 0.0 ? slab.averages.get() : nullptr, *slab.grid);
   slab.grid->exchange();
   expect_sums(*slab.grid, reference::particles_to_grid(cloud.shape, cloud.particles, pressure,
                                                        projects(choice.velocity)));

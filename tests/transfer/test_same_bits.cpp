@@ -28,14 +28,13 @@ using test::world;
 template <int Dim>
 void sweep_all(const Cloud<Dim>& cloud, double inverse_quantum, MPI_Comm communicator,
                Slab<Dim>& slab) {
-  average_pressure(slab.particles, slab.cells, cloud.transfer, *slab.averages, slab.step);
+  average_pressure(slab.particles, slab.cells, cloud.transfer, *slab.averages);
   transfer_cycle(cloud, inverse_quantum, random_kick<Dim>, communicator, slab);
 }
 
 template <int Dim>
 std::vector<const std::vector<double>*> results(const Slab<Dim>& slab) {
-  std::vector<const std::vector<double>*> columns = {&slab.step.heat, &slab.step.averaged_pressure,
-                                                     &slab.step.dilatation_end,
+  std::vector<const std::vector<double>*> columns = {&slab.step.heat, &slab.step.dilatation_end,
                                                      &slab.step.dilatation_mid};
   for (const auto& column : slab.particles.position) columns.push_back(&column);
   for (const auto& column : slab.particles.velocity) columns.push_back(&column);

@@ -6,39 +6,57 @@ import numpy
 
 from poreshock_cases.always import DRIFT
 from poreshock_cases.program import particles
-from poreshock_cases.table import check, limit, near, shown
+from poreshock_cases.table import check, limit, shown
 from poreshock_report import profiles
+from poreshock_report.hugoniot import snow_plow
 
 # Void fraction and end of the run, s: the front is then about 1.1 mm above the wall.
 SAMPLES = ((0.077, 250e-9), (0.3, 500e-9), (0.46, 800e-9))
+SEEDS = (1, 2, 3, 4)
+FIGURES = (("Us", 0.02), ("P at the wall", 0.05), ("P behind the front", 0.05), ("rise of mean T", 0.08),
+           ("rise of mean T + fluctuation / c_v", 0.04))
 COLLAPSE_CELLS = (10e-6, 5e-6, 2.5e-6)  # m
 JUDGED_CELL = 5e-6  # m, the others show the trend
 
 
-def hugoniot(lab, sample):
-    """Rows of the state behind the front of one porosity at 1100 m/s; five wall cells are left out."""
-    voids, end = sample
-    case = f"porous Hugoniot, void fraction {voids:g}, 1100 m/s, 5 um"
-    run = lab.run(f"hugoniot_{voids:g}", "porous_hugoniot.toml", f"sample.porosity={voids:g}", f"time.end={end!r}",
-                  "profile.every=5e-9")
+def measured(lab, voids, end, seed):
+    """One sample: measured figures, each over that of the snow-plow shock of its own void fraction."""
+    run = lab.run(f"hugoniot_{voids:g}_{seed}", "porous_hugoniot.toml", f"sample.porosity={voids:g}",
+                  f"sample.seed={seed}", f"time.end={end!r}", "profile.every=5e-9")
     scene = profiles.reader.read_scene(run.folder)
     setting, rows = profiles.setting_of(scene), profiles.read(run.folder)
     fit = profiles.fit_front(rows, setting)
     state = profiles.state_behind(rows, setting, fit)
-    plow = profiles.references(setting, profiles.void_fraction(rows, setting))[1]
-    speed, _, pressure, _, _, temperature, _ = plow
-    rise = temperature - setting.material.T0
-    hot = state["temperature"] + state["fluctuation"] / setting.material.cv
+    fraction = profiles.void_fraction(rows, setting)
+    start, moving = setting.material.T0, state["fluctuation"] / setting.material.cv
+
+    def over(plow):
+        rise = plow.temperature - start
+        return [state["stress"] / plow.pressure, (state["temperature"] - start) / rise,
+                (state["temperature"] + moving - start) / rise]
+
+    plow = snow_plow(setting.material, fraction, setting.velocity)
     stress = profiles.wall_stress(run.folder, scene, rows, fit)
-    return [near(case, "Us", fit.slope + setting.velocity, speed, 0.02, unit=" m/s"),
-            near(case, "P at the wall", stress, pressure, 0.05, unit=" GPa", scale=1e9),
-            near(case, "P behind the front", state["stress"], pressure, 0.05, unit=" GPa", scale=1e9),
-            near(case, "rise of mean T", state["temperature"] - setting.material.T0, rise, 0.08, unit=" K"),
-            near(case, "rise of mean T + fluctuation / c_v", hot - setting.material.T0, rise, 0.04, unit=" K"),
-            shown(case, "residual velocity fluctuation",
-                  f"{state['fluctuation']:.3g} J/kg = {state['fluctuation'] / setting.material.cv:.1f} K"),
-            shown(case, "space behind the front that no particle fills", f"{100.0 * state['void_fraction']:.1f} %"),
-            limit(case, "energy drift", run.drift, DRIFT)]
+    return [(fit.slope + setting.velocity) / plow.speed, stress / plow.pressure, *over(plow),
+            *over(snow_plow(setting.material, fraction, state["velocity"])),
+            state["velocity"], moving, 100.0 * state["void_fraction"], run.drift]
+
+
+def hugoniot(sample, found):
+    """Rows of the mean state behind the front over the samples of one porosity at 1100 m/s; five wall cells are left
+    out."""
+    case = f"porous Hugoniot, void fraction {sample[0]:g}, 1100 m/s, 5 um, {len(SEEDS)} samples"
+    values = numpy.array(found).T
+    mean, error = values.mean(axis=1), values.std(axis=1, ddof=1) / len(SEEDS)**0.5
+    off = [f"{100.0 * (x - 1.0):+.1f} % +- {100.0 * e:.1f} %" for x, e in zip(mean, error)]
+    rows = [check(case, figure, off[i], f"snow-plow +- {100.0 * bar:g} %", abs(mean[i] - 1.0) <= bar)
+            for i, (figure, bar) in enumerate(FIGURES)]
+    rows += [shown(case, f"{figure}, against the snow-plow of the measured Up", off[i])
+             for i, (figure, _) in enumerate(FIGURES[2:], len(FIGURES))]
+    return rows + [shown(case, "Up behind the front", f"{mean[-4]:.0f} +- {error[-4]:.0f} m/s"),
+                   shown(case, "residual velocity fluctuation / c_v", f"{mean[-3]:.1f} K"),
+                   shown(case, "space behind the front that no particle fills", f"{mean[-2]:.1f} %"),
+                   limit(case, "energy drift", values[-1].max(), DRIFT)]
 
 
 def quantile(values, weights, share):
@@ -92,6 +110,9 @@ def plane_step(lab, cell):
 
 def rows(lab, jobs):
     """All rows of porous samples."""
+    runs = [(*sample, seed) for sample in SAMPLES for seed in SEEDS]
     with ThreadPoolExecutor(jobs) as pool:
-        found = [*pool.map(partial(hugoniot, lab), SAMPLES), *pool.map(partial(collapse, lab), COLLAPSE_CELLS)]
-    return [row for part in found for row in part]
+        shocks = [*pool.map(lambda run: measured(lab, *run), runs)]
+        collapses = [*pool.map(partial(collapse, lab), COLLAPSE_CELLS)]
+    found = [hugoniot(sample, shocks[i * len(SEEDS):(i + 1) * len(SEEDS)]) for i, sample in enumerate(SAMPLES)]
+    return [row for part in found + collapses for row in part]

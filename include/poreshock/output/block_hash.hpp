@@ -18,9 +18,9 @@ inline constexpr std::uint32_t seal_version = 1;
 /// 64-bit hash of a piece of memory (XXH64 with seed 0).
 std::uint64_t block_hash(const std::byte* data, std::size_t count);
 
-/// Hashes a closed file and writes its seal; also forces the file to disk from every rank.
+/// Hashes a closed file and writes its seal; with `sync` every rank first forces it to disk.
 /// SystemError on all ranks when it cannot be read or written. Collective.
-void write_seal(const std::string& path, MPI_Comm communicator);
+void write_seal(const std::string& path, bool sync, MPI_Comm communicator);
 
 /// Reads a whole file again and compares it with its seal; InputError on all ranks that names what
 /// is wrong: foreign, of a newer version, truncated, or damaged. Collective.

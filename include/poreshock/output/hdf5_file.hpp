@@ -69,6 +69,10 @@ struct DatasetInfo {
 
 enum class Replace { no, yes };
 
+/// When a finished file is forced to disk: by finish(), or later by sync_records(). A file that is
+/// not forced yet outlives the program, but may not outlive the machine.
+enum class Durable { now, later };
+
 /// Most bytes one rank hands to one collective transfer; MPI-IO counts them in 32 bits.
 inline constexpr std::uint64_t default_piece_bytes = std::uint64_t{1} << 30;
 
@@ -82,7 +86,7 @@ class Hdf5File {
   /// Makes a file with all its datasets and attributes (rank 0's `spec` counts). SystemError when
   /// the disk has no room, or when `path` exists and may not be replaced. Collective.
   static Hdf5File create(const std::string& path, const FileSpec& spec, MPI_Comm communicator,
-                         Replace replace = Replace::no);
+                         Replace replace = Replace::no, Durable durable = Durable::now);
   /// Opens a file for reading; InputError when it is missing, not HDF5, or truncated. The seal is
   /// not checked: see verify(). Collective.
   static Hdf5File open(const std::string& path, MPI_Comm communicator);
@@ -114,13 +118,14 @@ class Hdf5File {
   /// One dataset; InputError when the file has none of that path. Collective.
   DatasetInfo dataset(const std::string& path);
 
-  /// Ends writing: closes, seals, forces to disk and renames to the final name. Collective.
+  /// Ends writing: closes, seals, forces to disk unless that is for later, and renames to the final
+  /// name. Collective.
   void finish();
 
   const std::string& path() const { return path_; }
 
  private:
-  Hdf5File(std::string path, MPI_Comm communicator, bool writing);
+  Hdf5File(std::string path, MPI_Comm communicator, bool writing, Durable durable);
   void open_handle(const std::string& path);
   void agree_here(const Outcome& outcome);
   void transfer(const std::string& dataset, std::uint64_t first_row, NumberType type, void* data,
@@ -129,6 +134,7 @@ class Hdf5File {
   std::string path_;
   MPI_Comm communicator_;
   bool writing_;
+  Durable durable_;
   bool failed_together_ = false;  // a member threw on all ranks
   int exceptions_;                // in flight when the file was opened
   std::int64_t handle_ =

@@ -51,6 +51,9 @@ void probe_space(const std::string& path, std::uint64_t size, std::uint64_t rese
 /// fail.
 void allocate_space(const std::string& path);
 
+/// Renames a file, replacing what was there.
+void rename_file(const std::string& from, const std::string& to);
+
 /// Forces the file to disk, renames it and forces the folder to disk.
 void publish(const std::string& from, const std::string& to);
 

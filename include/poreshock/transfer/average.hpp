@@ -10,11 +10,11 @@
 
 namespace poreshock {
 
-/// Sets step.averaged_pressure = (1 - share) (p + q) + share A(p + q). Collective (one exchange of
-/// `averages`).
+/// Averages p + q of the particles to the nodes, periodic images filled, for particles_to_grid.
+/// Collective (one exchange of `averages`).
 template <int Dim>
 void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
-                      const Transfer& transfer, SlabGrid& averages, StepData<Dim>& step);
+                      const Transfer& transfer, SlabGrid& averages);
 
 /// Averages div v' and div v_mid of the particles to the nodes, from the nodal motion in `grid`
 /// (periodic images filled), for grid_to_particles. In 2-D they end in lanes of `grid`, in 3-D in

@@ -296,27 +296,6 @@ void scatter_values(const Spline& spline, const Particles<Dim>& particles, const
       grid);
 }
 
-/// Gathers in blocks: visit(p, weights, nodes) sees nodes[quantity][block] of the chosen lanes.
-/// Nodes must be complete, periodic images filled. Not collective.
-template <int Dim, int Quantities, class Spline, class Visit>
-void gather_blocks(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                   const SlabGrid& grid, const std::array<int, Quantities>& lanes, Visit&& visit) {
-  const GridShape& shape = grid.shape();
-  const double inverse_cell = 1.0 / shape.cell;
-  BlockReader<Dim, Spline, Quantities> reader(grid, lanes);
-  for_each_run(
-      particles, cells, grid, awake_rows(cells, grid),
-      [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
-        const auto base = cell_index<Dim>(shape, row, lateral);
-        reader.load(row, lateral);
-        for (; first != last; ++first) {
-          visit(*first, block_weights<Dim>(spline, particles, *first, base, inverse_cell),
-                reader.nodes);
-        }
-      },
-      [](int) {});
-}
-
 /// Sum of weight times value over the nodes of a stencil.
 template <int Dim, class Spline>
 inline double interpolate(const BlockWeights<Dim, Spline>& w,

@@ -18,7 +18,6 @@ struct StepData {
   std::array<std::vector<double>, Dim> residual;   ///< m/s, part the filter takes; only with FMPM
   std::vector<double> filter_heat;                 ///< J/kg, of that part; only with FMPM
   std::array<std::vector<double>, Dim> transport;  ///< m/s, velocity of the places; only with MUSL
-  std::vector<double> averaged_pressure;           ///< Pa, p + q averaged; only with averaging
   // In canonical order, from the first particle of the rows that grid_to_particles took:
   std::array<std::vector<double>, Dim * Dim> gradient;   ///< 1/s, of the new velocity, row major
   std::array<std::vector<double>, rate_size<Dim>> rate;  ///< 1/s, symmetric gradient at mid-step
