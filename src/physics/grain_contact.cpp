@@ -62,6 +62,7 @@ NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
   NodeGrain<Dim> grain;
   grain.mass = motion[Motion::mass];
   grain.volume = surface[Surface::volume];
+  grain.strain = grain.volume > 0.0 ? surface[Surface::strain] / grain.volume : 0.0;
   for (int a = 0; a < Dim; ++a) {
     grain.start[a] = motion[Motion::start_velocity + a];
     grain.end[a] = motion[Motion::end_velocity + a];
