@@ -168,7 +168,6 @@ ContactSummary collide_grains(const std::vector<ContactField>& fields,
   double space = 1.0;
   for (int a = 0; a < Dim; ++a) space *= shape.cell;
   ContactSummary summary;
-  summary.least_gap = std::numeric_limits<double>::infinity();
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
     const double along = space * share_inside(row, shape.rows, false, beyond);

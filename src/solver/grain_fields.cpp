@@ -187,11 +187,7 @@ void split_by_colour(Simulation<Dim>& sim) {
 template <int Dim>
 void collide(double dt, Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
-  all.summary = {.nodes = 0,
-                 .crowded_nodes = 0,
-                 .least_gap = std::numeric_limits<double>::infinity(),
-                 .penetration = 0.0,
-                 .residual = 0.0};
+  all.summary = {};
   if (all.fields.empty()) return;
   const std::vector<ContactField> fields = contact_fields(all);
   all.shared = shared_nodes(fields, MotionLane<Dim>::mass);
@@ -218,6 +214,20 @@ void finish_contact(Simulation<Dim>& sim) {
   settle_contact_heat<Dim>(contact_fields(all), all.shared, sim.ledger.nodes);
 }
 
+template <int Dim>
+ContactRow contact_row(const Simulation<Dim>& sim) {
+  const ContactSummary& own = sim.grain_fields.summary;
+  std::int64_t counts[2] = {own.nodes, own.crowded_nodes};
+  double largest[3] = {-own.least_gap, own.penetration, own.residual};
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_INT64_T, MPI_SUM, sim.communicator),
+            "MPI_Allreduce of contact nodes");
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, largest, 3, MPI_DOUBLE, MPI_MAX, sim.communicator),
+            "MPI_Allreduce of gaps");
+  return {counts[0], counts[1], -largest[0], largest[1], largest[2]};
+}
+
+template ContactRow contact_row<2>(const Simulation<2>&);
+template ContactRow contact_row<3>(const Simulation<3>&);
 template void find_grains<2>(Simulation<2>&);
 template void find_grains<3>(Simulation<3>&);
 template void split_by_colour<2>(Simulation<2>&);
