@@ -172,7 +172,10 @@ int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& se
                ContactReport& report) {
   double filled = 0.0;
   for (const NodeGrain<Dim>& g : grains) filled += g.volume;
-  const double excess = filled / settings.capacity - 1.0;
+  // Over the space of a node inside the domain: beyond a wall only a sliver of it is left.
+  double space = 1.0;
+  for (int k = 0; k < Dim; ++k) space *= settings.cell;
+  const double excess = (filled - settings.capacity) / space;
   if (excess > 0.0) report.penetration = excess * settings.cell / faces.density(0.5);
   report.least_gap = std::numeric_limits<double>::infinity();
   int count = 0;
