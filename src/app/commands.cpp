@@ -1,10 +1,15 @@
 #include "poreshock/app/commands.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <string_view>
 
 #include "poreshock/app/check.hpp"
+#include "poreshock/app/reference.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/core/stop_signal.hpp"
 #include "poreshock/output/checkpoint.hpp"
@@ -104,6 +109,16 @@ std::string restart_path(const Command& command, MPI_Comm communicator) {
   return path;
 }
 
+/// Rows go to a terminal only, unless asked for. mpirun gives its first process a terminal of its
+/// own, so that tools/mpirun says what it writes to itself.
+ProgressRows progress_rows(const Command& command) {
+  if (command.quiet) return ProgressRows::none;
+  if (command.verbose) return ProgressRows::every_beat;
+  const char* terminal = std::getenv("PORESHOCK_TERMINAL");
+  const bool shown = terminal != nullptr ? std::string_view(terminal) != "no" : isatty(1) != 0;
+  return shown ? ProgressRows::timed : ProgressRows::none;
+}
+
 ExitCode execute_run(const Command& command, MPI_Comm communicator) {
   // Written so that a NaN is refused too.
   if (!(command.wall_limit >= 0.0)) {
@@ -117,6 +132,10 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
                        : command.output;
   options.wall_limit = command.wall_limit;
   options.force = command.force;
+  // One rank asks: the others may have another terminal, or none.
+  int rows = static_cast<int>(progress_rows(command));
+  check_mpi(MPI_Bcast(&rows, 1, MPI_INT, 0, communicator), "MPI_Bcast");
+  options.rows = static_cast<ProgressRows>(rows);
   options.quiet = command.quiet;
   Command resolved = command;
   resolved.output = options.folder;
@@ -190,7 +209,11 @@ void declare(Command& command, CLI::App& app) {
   run->add_option("--wall-time", command.wall_limit,
                   "seconds after which to write a checkpoint and stop");
   run->add_flag("--force", command.force, "replace our files in an existing output folder");
-  run->add_flag("--quiet", command.quiet, "no progress rows");
+  CLI::Option* quiet =
+      run->add_flag("--quiet", command.quiet, "no progress rows, no table of timings");
+  run->add_flag("--verbose", command.verbose,
+                "a progress row for every output.beat, not only on a terminal")
+      ->excludes(quiet);
   run->callback([&command] { command.kind = CommandKind::run; });
   CLI::App* check = app.add_subcommand("check", "say what a scene means, run nothing");
   declare_scene(command, *check);
@@ -205,6 +228,11 @@ void declare(Command& command, CLI::App& app) {
   CLI::App* info = app.add_subcommand("info", "say what a file of this program holds");
   info->add_option("file", command.file, "HDF5 or CSV file")->required();
   info->callback([&command] { command.kind = CommandKind::info; });
+  CLI::App* materials = app.add_subcommand("materials", "list the materials of the library");
+  materials->add_option("name", command.file, "one of them, with all its numbers");
+  materials->callback([&command] { command.kind = CommandKind::materials; });
+  CLI::App* keys = app.add_subcommand("keys", "list all keys of a scene as Markdown");
+  keys->callback([&command] { command.kind = CommandKind::keys; });
 }
 
 ExitCode execute(const Command& command, MPI_Comm communicator) {
@@ -232,6 +260,13 @@ ExitCode execute(const Command& command, MPI_Comm communicator) {
       return ExitCode::success;
     case CommandKind::info:
       on_rank_zero(communicator, [&] { std::printf("%s", describe(command.file).c_str()); });
+      return ExitCode::success;
+    case CommandKind::materials:
+      on_rank_zero(communicator,
+                   [&] { std::printf("%s", describe_materials(command.file).c_str()); });
+      return ExitCode::success;
+    case CommandKind::keys:
+      on_rank_zero(communicator, [] { std::printf("%s", describe_keys().c_str()); });
       return ExitCode::success;
   }
   return ExitCode::system_failure;

@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "poreshock/app/build_information.hpp"
 #include "poreshock/app/commands.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -64,7 +65,7 @@ int guarded(const poreshock::Command& command, MPI_Comm communicator, MPI_Comm f
 
 int main(int argc, char** argv) {
   CLI::App app{"poreshock: strong shocks in porous and granular solids"};
-  app.set_version_flag("--version", poreshock::version() + " (" + poreshock::revision() + ")");
+  app.set_version_flag("--version", poreshock::build_information());
   app.require_subcommand(1);
   app.prefix_command(false);
   poreshock::Command command;

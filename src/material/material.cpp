@@ -4,13 +4,51 @@
 
 namespace poreshock {
 
+namespace {
+
+FlowStress johnson_cook(const JohnsonCookParameters& p) {
+  FlowStress law;
+  law.start = p.yield;
+  law.hardening = p.hardening;
+  law.exponent = p.exponent;
+  law.rate = p.rate;
+  law.reference_rate = p.reference_rate;
+  law.softening = p.softening;
+  law.melting = p.melting;
+  law.reference_temperature = p.reference_temperature;
+  return law;
+}
+
+FlowStress steinberg_guinan(const SteinbergGuinanParameters& p) {
+  FlowStress law;
+  // Y0 (1 + beta e)^n = Y0 beta^n (1/beta + e)^n.
+  const bool hardens = p.hardening > 0.0;
+  law.start = hardens ? 0.0 : p.yield;
+  law.hardening = hardens ? p.yield * positive_power(p.hardening, p.exponent) : 0.0;
+  law.exponent = p.exponent;
+  law.initial_strain = hardens ? 1.0 / p.hardening + p.initial_strain : 0.0;
+  law.limit = p.limit;
+  law.pressure_rise = p.pressure_rise;
+  law.temperature_fall = p.temperature_fall;
+  law.reference_temperature = p.reference_temperature;
+  return law;
+}
+
+}  // namespace
+
 Material make_material(const MaterialParameters& p) {
   J2MieGruneisen m;
   m.eos = make_mie_gruneisen(p.density, p.c0, p.lambda, p.gamma, p.cv, p.T0);
   m.strength.shear = p.young / (2.0 * (1.0 + p.poisson));
-  m.strength.yield = p.yield;
-  m.strength.isotropic = (1.0 - p.kinematic_share) * p.hardening;
-  m.strength.kinematic = p.kinematic_share * p.hardening;
+  if (p.strength == StrengthModel::linear) {
+    m.strength.yield = p.yield;
+    m.strength.isotropic = (1.0 - p.kinematic_share) * p.hardening;
+    m.strength.kinematic = p.kinematic_share * p.hardening;
+  }
+  if (p.strength == StrengthModel::johnson_cook) m.flow = johnson_cook(p.johnson_cook);
+  if (p.strength == StrengthModel::steinberg_guinan) {
+    m.flow = steinberg_guinan(p.steinberg_guinan);
+  }
   m.temperature = make_temperature_curve(m.eos);
   m.plastic_heat = p.plastic_heat;
   m.conductivity = p.conductivity;

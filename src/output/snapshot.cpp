@@ -98,6 +98,9 @@ bool wanted(const Scene& scene, std::string_view name) {
          std::find(list.begin(), list.end(), name) != list.end();
 }
 
+/// Rank whose slab a particle was in; how a run was cut is not part of its result.
+constexpr const char* owner_path = "/slabs/owner";
+
 template <int Dim>
 FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int64_t floored) {
   FileSpec spec;
@@ -128,6 +131,7 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
     add(field.name, single ? NumberType::float32 : NumberType::float64, field.components,
         field.unit);
   }
+  spec.datasets.push_back({owner_path, NumberType::int32, {rows}, "1", {}});
   return spec;
 }
 
@@ -182,6 +186,8 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
       write_field<double>(field, source, rows.first, file);
     }
   }
+  const std::vector<std::int32_t> owner(particles.size(), rank(communicator));
+  file.write<std::int32_t>(owner_path, rows.first, owner);
   file.finish();
   return floored;
 }

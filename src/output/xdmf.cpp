@@ -44,8 +44,9 @@ void write_grid(const std::string& path, std::ostream& out) {
   write_item(name, position, out);
   out << "</Geometry>\n";
   for (const DatasetInfo& info : snapshot.datasets()) {
-    if (!info.path.starts_with("/particles/") || info.path == position.path || !info.type) continue;
-    out << "    <Attribute Name=\"" << info.path.substr(std::string("/particles/").size())
+    const bool shown = info.path.starts_with("/particles/") || info.path == "/slabs/owner";
+    if (!shown || info.path == position.path || !info.type) continue;
+    out << "    <Attribute Name=\"" << info.path.substr(info.path.rfind('/') + 1)
         << "\" Center=\"Node\" AttributeType=\"" << attribute_type(info) << "\">";
     write_item(name, info, out);
     out << "</Attribute>\n";

@@ -1,34 +1,72 @@
 #include "poreshock/physics/stress.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <numeric>
 
+#include "flow_increments.hpp"
 #include "stress_point.hpp"
 
 namespace poreshock {
 
 namespace {
 
-// Not part of the flattened loop.
-[[gnu::noinline]] void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count,
-                              double cell, double inverse_quantum, StressReport& report) {
+/// Numbers of one block: particles whose state is no longer one, those that met a guard, those
+/// whose heat has no small number of quanta, the quanta of the others, and the bits of the least
+/// limit.
+struct BlockSums {
+  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0, quanta = 0;
+  std::int64_t least = std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
+};
+
+// Integers only, and no jumps: then the loop vectorises without leave to reorder sums of doubles.
+[[gnu::noinline]] BlockSums sum_block(const J2MieGruneisen& m, const BlockResults& r,
+                                      std::size_t count, double cell, double inverse_quantum) {
+  // Adding it leaves a number below 2^51 rounded to even in the last bits.
+  constexpr double rounder = 0x1.8p52;
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
+  const double guard = m.eos.guard;
+  BlockSums s;
   for (std::size_t k = 0; k < count; ++k) {
     // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
     // jump over a whole slab.
-    const bool good = r.volume_ratio[k] > 0.5 && r.volume_ratio[k] < 2.0 &&
-                      r.energy[k] - r.energy[k] == 0.0 && r.limit[k] > 0.0 && r.travel[k] < cell;
-    if (!good) ++report.bad;
-    if (good && r.limit[k] < report.dt_limit) report.dt_limit = r.limit[k];
-    if (r.eta[k] > m.eos.guard) ++report.compression_guard;
-    if (r.sound_speed2[k] <= floor2) ++report.sound_speed_guard;
-    if (r.viscous[k] != 0.0) report.viscous_heat += quantise(r.viscous[k], inverse_quantum);
+    const bool good = (r.volume_ratio[k] > 0.5) & (r.volume_ratio[k] < 2.0) &
+                      (r.energy[k] - r.energy[k] == 0.0) & (r.limit[k] > 0.0) &
+                      (r.travel[k] < cell);
+    s.bad += good ? 0 : 1;
+    s.compressed += r.eta[k] > guard ? 1 : 0;
+    s.slow += r.sound_speed2[k] <= floor2 ? 1 : 0;
+    // Bits of positive numbers are in their order.
+    const std::int64_t limit = std::bit_cast<std::int64_t>(r.limit[k]);
+    s.least = good & (limit < s.least) ? limit : s.least;
+    const double scaled = r.viscous[k] * inverse_quantum;
+    s.large += (scaled < 0x1p51) & (scaled > -0x1p51) ? 0 : 1;
+    s.quanta +=
+        std::bit_cast<std::int64_t>(scaled + rounder) - std::bit_cast<std::int64_t>(rounder);
+  }
+  return s;
+}
+
+void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, double cell,
+            double inverse_quantum, StressReport& report) {
+  const BlockSums s = sum_block(m, r, count, cell, inverse_quantum);
+  report.bad += s.bad;
+  report.compression_guard += s.compressed;
+  report.sound_speed_guard += s.slow;
+  report.dt_limit = std::min(report.dt_limit, std::bit_cast<double>(s.least));
+  if (s.large == 0) {
+    report.viscous_heat += s.quanta;
+    return;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    report.viscous_heat += quantise(r.viscous[k], inverse_quantum);
   }
 }
 
 // Flattened: the loop vectorises only when all it calls is inlined, and with so many variants the
 // compiler would stop.
-template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
+template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
 [[gnu::flatten]] void update_block(const J2MieGruneisen& material,
                                    const StressSettings<Dim>& all_settings, double dt,
                                    const Columns<Dim>& all_columns, std::size_t count,
@@ -44,8 +82,7 @@ template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
   m.spall = material.spall;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    update_particle<Dim, Kinematic, Spall, Conserving, Averaging>(m, settings, dt, c, k, k,
-                                                                  results);
+    update_particle<Dim, How, Spall, Conserving, Averaging>(m, settings, dt, c, k, k, results);
   }
   reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }
@@ -112,34 +149,41 @@ void for_each_block(const Particles<Dim>& particles, std::span<const std::uint32
   }
 }
 
-template <int Dim, bool Kinematic, bool Spall>
+template <int Dim, Yielding How, bool Spall>
+void update_in_mode(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
+                    const Columns<Dim>& c, std::size_t count, StressReport& report) {
+  const bool conserving = settings.thermal == Thermal::conserving;
+  if (settings.averaging) {
+    conserving ? update_block<Dim, How, Spall, true, true>(m, settings, dt, c, count, report)
+               : update_block<Dim, How, Spall, false, true>(m, settings, dt, c, count, report);
+  } else {
+    conserving ? update_block<Dim, How, Spall, true, false>(m, settings, dt, c, count, report)
+               : update_block<Dim, How, Spall, false, false>(m, settings, dt, c, count, report);
+  }
+}
+
+template <int Dim, Yielding How, bool Spall>
 void update_all(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                 const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                 Particles<Dim>& particles, StressReport& report) {
   const Columns<Dim> all = particle_columns<Dim>(particles);
   BlockCopy<Dim> copy;
-  const bool conserving = settings.thermal == Thermal::conserving;
-  for_each_block<Dim>(particles, places,
-                      [&](std::int32_t material, std::size_t first, std::size_t count) {
-                        Columns<Dim> c = fetch<Dim>(all, places.data() + first, count, copy);
-                        set_step_columns<Dim>(step, first, c);
-                        std::visit(
-                            [&](const auto& m) {
-                              if (settings.averaging) {
-                                conserving ? update_block<Dim, Kinematic, Spall, true, true>(
-                                                 m, settings, dt, c, count, report)
-                                           : update_block<Dim, Kinematic, Spall, false, true>(
-                                                 m, settings, dt, c, count, report);
-                              } else {
-                                conserving ? update_block<Dim, Kinematic, Spall, true, false>(
-                                                 m, settings, dt, c, count, report)
-                                           : update_block<Dim, Kinematic, Spall, false, false>(
-                                                 m, settings, dt, c, count, report);
-                              }
-                            },
-                            materials[static_cast<std::size_t>(material)]);
-                        put_back<Dim>(c, places.data() + first, count, copy, all);
-                      });
+  double increments[block_size];
+  for_each_block<Dim>(
+      particles, places, [&](std::int32_t material, std::size_t first, std::size_t count) {
+        Columns<Dim> c = fetch<Dim>(all, places.data() + first, count, copy);
+        set_step_columns<Dim>(step, first, c);
+        const auto& m = std::get<J2MieGruneisen>(materials[static_cast<std::size_t>(material)]);
+        if (m.flow) {
+          plastic_increments<Dim>(materials, settings.thermal, particles,
+                                  places.subspan(first, count), c, dt, increments);
+          c.plastic_increment = increments;
+          update_in_mode<Dim, Yielding::known, Spall>(m, settings, dt, c, count, report);
+        } else {
+          update_in_mode<Dim, How, Spall>(m, settings, dt, c, count, report);
+        }
+        put_back<Dim>(c, places.data() + first, count, copy, all);
+      });
 }
 
 }  // namespace
@@ -148,14 +192,17 @@ template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                    const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                    Particles<Dim>& particles, StressReport& report) {
+  constexpr Yielding isotropic = Yielding::isotropic, kinematic = Yielding::kinematic;
   if (particles.options.failed) {
     particles.options.back_stress
-        ? update_all<Dim, true, true>(materials, settings, step, dt, places, particles, report)
-        : update_all<Dim, false, true>(materials, settings, step, dt, places, particles, report);
+        ? update_all<Dim, kinematic, true>(materials, settings, step, dt, places, particles, report)
+        : update_all<Dim, isotropic, true>(materials, settings, step, dt, places, particles,
+                                           report);
   } else {
-    particles.options.back_stress
-        ? update_all<Dim, true, false>(materials, settings, step, dt, places, particles, report)
-        : update_all<Dim, false, false>(materials, settings, step, dt, places, particles, report);
+    particles.options.back_stress ? update_all<Dim, kinematic, false>(materials, settings, step, dt,
+                                                                      places, particles, report)
+                                  : update_all<Dim, isotropic, false>(materials, settings, step, dt,
+                                                                      places, particles, report);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "poreshock/material/flow_stress.hpp"
 #include "poreshock/material/strain.hpp"
 #include "poreshock/physics/stress.hpp"
 
@@ -42,11 +43,11 @@ inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double 
   const double pressure = density * (viscosity.quadratic * (closing * closing) + linear * closing);
   const double Q = linear + viscosity.quadratic * closing;
   const double shock = closing > 0.0 ? Q : 0.0;
+  // What divides is the same for all particles of a loop.
   const double wave =
-      cfl * cell / (speed + shock + std::sqrt(shock * shock + sound_speed * sound_speed));
-  // 1/rate of a particle at rest is infinite, which the comparison handles.
-  const double strain = largest_strain_increment / strain_rate;
-  return {pressure, wave < strain ? wave : strain};
+      (speed + shock + std::sqrt(shock * shock + sound_speed * sound_speed)) * (1.0 / (cfl * cell));
+  const double strain = strain_rate * (1.0 / largest_strain_increment);
+  return {pressure, 1.0 / (wave > strain ? wave : strain)};
 }
 
 /// Columns of the particles and of the step as raw pointers, for the vectorised loop; null where a
@@ -58,6 +59,7 @@ struct Columns {
   std::array<double*, Dim> velocity;
   std::int32_t* failed;
   const double *heat, *dilatation_end, *dilatation_mid;
+  const double* plastic_increment;  // null unless known beforehand
   std::array<const double*, Dim * Dim> gradient;
   std::array<const double*, rate_size<Dim>> rate;
 };
@@ -156,6 +158,28 @@ inline Motion<Dim> load_motion(const StressSettings<Dim>& settings, double dt,
   return motion;
 }
 
+/// How a particle yields: by linear hardening without or with a back stress, or by a flow stress
+/// whose plastic increment is known beforehand.
+enum class Yielding { isotropic, kinematic, known };
+
+/// Deviator of the start of the step, rotated to its end, and what it would be without plasticity.
+template <int Dim>
+struct TrialStress {
+  SymmetricTensor<Dim> start, trial;
+};
+
+template <int Dim>
+inline TrialStress<Dim> trial_stress(const DeformationIncrement<Dim>& increment,
+                                     const SymmetricTensor<Dim>& s, double shear) {
+  TrialStress<Dim> t;
+  t.start = rotate(increment.rotation, s);
+  const double twice_shear = 2.0 * shear;
+  for (int k = 0; k < symmetric_size<Dim>; ++k) {
+    t.trial[k] = t.start[k] + twice_shear * increment.strain_deviator[k];
+  }
+  return t;
+}
+
 /// A failed particle bears neither tension nor shear. The elastic energy it held is heat from now
 /// on, since it stays in the internal energy. Where it has opened its solid is at rest volume.
 template <int Dim>
@@ -171,10 +195,11 @@ inline void release(const MieGruneisen& law, bool fails, ReturnMapping<Dim>& map
 }
 
 /// One particle, load - call - store.
-template <int Dim, bool Kinematic, bool Spall, bool Conserving, bool Averaging>
+template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
 inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
                             const Columns<Dim>& c, std::size_t i, std::size_t local,
                             BlockResults& results) {
+  constexpr bool Kinematic = How == Yielding::kinematic;
   constexpr int size = symmetric_size<Dim>;
   SymmetricTensor<Dim> s, alpha{};
   for (int k = 0; k < size; ++k) s[k] = c.deviator[k][i];
@@ -197,13 +222,16 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
     dilatation_end = c.dilatation_end[i];
   }
   const double density = c.density[i] / ratio;
-  const SymmetricTensor<Dim> start = rotate(increment.rotation, s);
-  SymmetricTensor<Dim> trial;
   const bool failed_before = Spall && c.failed[i] != 0;
-  const double twice_shear = failed_before ? 0.0 : 2.0 * m.strength.shear;
-  for (int k = 0; k < size; ++k) trial[k] = start[k] + twice_shear * increment.strain_deviator[k];
+  const auto [start, trial] =
+      trial_stress<Dim>(increment, s, failed_before ? 0.0 : m.strength.shear);
   if constexpr (Kinematic) alpha = rotate(increment.rotation, alpha);
-  auto mapped = radial_return<Dim, Kinematic>(m.strength, start, trial, alpha, c.strain[i]);
+  ReturnMapping<Dim> mapped;
+  if constexpr (How == Yielding::known) {
+    mapped = return_by<Dim>(c.plastic_increment[i], m.strength.shear, start, trial);
+  } else {
+    mapped = radial_return<Dim, Kinematic>(m.strength, start, trial, alpha, c.strain[i]);
+  }
 
   const double volume = 1.0 / density;
   const double heat_per_volume =
@@ -223,7 +251,7 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   }
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;
-  const double sound_speed = std::sqrt(c2 + 4.0 * m.strength.shear * volume / 3.0);
+  const double sound_speed = std::sqrt(c2 + 4.0 / 3.0 * m.strength.shear * volume);
   const ViscousStep next =
       viscous_step(settings.viscosity, settings.cell, settings.cfl, density, sound_speed,
                    dilatation_end, motion.strain_rate, motion.speed);

@@ -26,10 +26,6 @@ bool whole_multiple(double value, double unit) {
   return nearest >= 1.0 && std::abs(ratio - nearest) <= tolerance * nearest;
 }
 
-std::string indexed(const char* table, std::size_t index, const char* key) {
-  return std::string(table) + "." + std::to_string(index) + "." + key;
-}
-
 void check_domain(const Scene& scene, Report& report) {
   if (!good(report, {"domain.size", "domain.cell"})) return;
   const double cell = scene.domain.cell;
@@ -89,23 +85,6 @@ void check_boundary(const Scene& scene, Report& report) {
               "found " + found + " opposite to a moving wall, allowed \"free\" or a wall at " +
                   plain_number(moving.velocity) + " m/s too",
               report);
-}
-
-void check_materials(const Scene& scene, Report& report) {
-  const auto& materials = scene.materials;
-  if (materials.empty() && !has_problem(report, "material")) {
-    add_problem("material", "missing, give at least one table [[material]]", report);
-  }
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const std::string& name = materials[i].name;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (name.empty() || materials[j].name != name) continue;
-      add_problem(indexed("material", i, "name"),
-                  "found \"" + name + "\" again, allowed a name of its own for each material",
-                  report);
-      break;
-    }
-  }
 }
 
 void check_voids_of_sample(const Sample& sample, Report& report) {

@@ -12,6 +12,9 @@ void resolve(Scene& scene, const Report& report);
 /// Adds every contradiction between keys to the report; keys that have a problem are left out.
 void check_scene(const Scene& scene, Report& report);
 
+/// The part of it about materials.
+void check_materials(const Scene& scene, Report& report);
+
 /// The part of it about generated grains.
 void check_grains(const Scene& scene, Report& report);
 

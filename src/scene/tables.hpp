@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dataset_names.hpp"
+#include "material_table.hpp"
 #include "poreshock/scene/scene.hpp"
 #include "rules.hpp"
 #include "transfer_table.hpp"
@@ -42,42 +43,6 @@ void visit_boundary(Visitor& visitor, Scene& scene) {
                         [&](auto& inner) { visit_side(inner, boundary.high); });
   visitor.sides("lateral", boundary.lateral, scene.domain.periodic, scene.dimension - 1,
                 {"both sides of a lateral axis that is not periodic: free, wall or symmetry"});
-}
-
-template <typename Visitor>
-void visit_material(Visitor& visitor, MaterialParameters& material) {
-  constexpr Range up_to_20{.low = 0.0, .high = 20.0};
-  constexpr Range below_half{.low = 0.0, .high = 0.5, .below_high = true};
-  const Names<PlasticHeat> heats{{"work", PlasticHeat::work},
-                                 {"dissipation", PlasticHeat::dissipation}};
-  visitor.text("name", material.name, {"other tables refer to it", Need::required});
-  visitor.name("model", material.model, {"j2_mie_gruneisen"},
-               {"J2 plasticity with a Mie-Grueneisen equation of state"});
-  visitor.number("density", material.density,
-                 {positive, "kg/m^3", "of the solid without voids", Need::required});
-  visitor.number(
-      "young", material.young,
-      {not_negative, "Pa", "with poisson the shear modulus; 0 = a fluid", Need::required});
-  visitor.number("poisson", material.poisson, {below_half, "", "Poisson's ratio", Need::required});
-  visitor.number("yield", material.yield,
-                 {not_negative, "Pa", "initial yield stress", Need::required});
-  visitor.number("hardening", material.hardening,
-                 {not_negative, "Pa", "rise of the yield stress per plastic strain"});
-  visitor.number("kinematic_share", material.kinematic_share,
-                 {share, "", "of the hardening: 0 isotropic, 1 kinematic"});
-  choice(visitor, "plastic_heat", material.plastic_heat, heats,
-         {"all plastic work is heat, or all but what the back stress stores"});
-  visitor.number("c0", material.c0,
-                 {positive, "m/s", "bulk sound speed, of Us = c0 + lambda Up", Need::required});
-  visitor.number("lambda", material.lambda,
-                 {{.low = 1.0, .high = 20.0}, "", "slope of Us = c0 + lambda Up", Need::required});
-  visitor.number("gamma", material.gamma,
-                 {up_to_20, "", "Grueneisen coefficient, constant", Need::required});
-  visitor.number("cv", material.cv, {positive, "J/(kg K)", "specific heat", Need::required});
-  visitor.number("conductivity", material.conductivity,
-                 {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
-  visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
-  visitor.number("spall", material.spall, {not_negative, "Pa", "tension it fails at; 0 = never"});
 }
 
 /// Index of a material by its name; the first material by default.

@@ -83,6 +83,11 @@ void TomlReader::finish() {
   }
 }
 
+bool TomlReader::gives_any(std::initializer_list<const char*> keys) const {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const char* key) { return table_.contains(key); });
+}
+
 bool TomlReader::read_number(const toml::node& node, const std::string& key, const NumberRule& rule,
                              double& value) {
   const std::optional<double> number =

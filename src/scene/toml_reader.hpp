@@ -56,6 +56,9 @@ class TomlReader {
   /// Thresholds of hot spots, written the same way, for some or all of the fields.
   void hot_spots(const char* key, std::vector<MorphologyField>& fields, const Rule& rule);
 
+  /// Whether the table holds any of the keys.
+  bool gives_any(std::initializer_list<const char*> keys) const;
+
   /// Sets a default that follows from keys read before.
   template <typename Value>
   void fallback(Value& value, const Value& follows) {

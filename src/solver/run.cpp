@@ -37,12 +37,13 @@ bool at_end(const TimeControl& limits, const Clock& clock) {
   return clock.time >= limits.end || (limits.max_steps > 0 && clock.step >= limits.max_steps);
 }
 
-/// Prints a row when the last one is old enough; rank 0's clock decides. Collective.
+/// Prints a row when one is due; rank 0's clock decides. Collective.
 template <int Dim>
-void show_progress(bool quiet, const Simulation<Dim>& sim, const Recorder<Dim>& recorder,
+void show_progress(ProgressRows rows, const Simulation<Dim>& sim, const Recorder<Dim>& recorder,
                    Progress& progress) {
-  if (quiet) return;
-  int late = MPI_Wtime() - progress.row_wall >= seconds_between_rows ? 1 : 0;
+  if (rows == ProgressRows::none) return;
+  const bool waited = MPI_Wtime() - progress.row_wall >= seconds_between_rows;
+  int late = (rows == ProgressRows::every_beat ? sim.clock.on_beat : waited) ? 1 : 0;
   check_mpi(MPI_Bcast(&late, 1, MPI_INT, 0, sim.communicator), "MPI_Bcast");
   if (late == 0) return;
   const std::string row = progress_row(sim.clock, sim.scene.time.end, energy_status(recorder),
@@ -153,7 +154,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
     const bool last = at_end(limits, sim.clock);
     if (sim.clock.on_beat || last) record(last, sim, recorder);
     checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);
-    show_progress(options.quiet, sim, recorder, progress);
+    show_progress(options.rows, sim, recorder, progress);
   }
   return RunEnd::finished;
 }
@@ -184,10 +185,12 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   }
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, std::move(pixels), sim);
   if (options.continues) recorder.backlog.newest_checkpoint = options.restart;
-  progress.first_step = sim.clock.step;
+  progress.first_step = progress.row_step = sim.clock.step;
   progress.row_wall = MPI_Wtime();
   progress.row_time = sim.clock.time;
-  if (rank(communicator) == 0 && !options.quiet) std::printf("%s\n", progress_header().c_str());
+  if (rank(communicator) == 0 && options.rows != ProgressRows::none) {
+    std::printf("%s\n", progress_header().c_str());
+  }
   try {
     const RunEnd end = time_loop(options, sim, recorder, progress);
     finish(end, options, sim, recorder, progress);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "moments.hpp"
 #include "poreshock/transfer/blocks.hpp"
 
 namespace poreshock {
@@ -71,24 +72,29 @@ void subtract_average(const Spline& spline, const Particles<Dim>& particles, con
   const bool takes_variance = order % 2 == 1 && applied == order / 2;
   const bool takes_nodes = 2 * applied >= order;
   const bool takes_spread = 2 * applied + 1 >= order;
-  gather<Dim>(spline, particles, cells, grid,
-              [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-                const Lanes mean = interpolate<Dim, Spline>(stencil, nodes);
-                double rest2 = 0.0, mean2 = 0.0;
-                for (int a = 0; a < Dim; ++a) {
-                  const double average = mean[Lane::velocity + a];
-                  const double r = step.residual[a][p] - average;
-                  step.residual[a][p] = r;
-                  rest2 += r * r;
-                  mean2 += average * average;
-                }
-                double heat = 0.0;
-                if (takes_residual) heat += rest2;
-                if (takes_variance) heat += mean[Lane::variance];
-                if (takes_nodes) heat += mean[Lane::square];
-                if (takes_spread) heat += mean[Lane::square] - mean2;
-                step.filter_heat[p] += 0.5 * heat;
-              });
+  const double inverse_cell = 1.0 / grid.shape().cell;
+  gather_with<Dim, Spline>(
+      [&](std::uint32_t p, const std::array<int, Dim>& base) {
+        return point_weights<Dim>(spline, particles, p, base, inverse_cell);
+      },
+      particles, cells, grid, awake_rows(cells, grid),
+      [&](std::uint32_t p, const PointWeights<Dim>& w, const Lanes* nodes) {
+        const Lanes mean = interpolate<Dim, Spline>(w, nodes);
+        double rest2 = 0.0, mean2 = 0.0;
+        for (int a = 0; a < Dim; ++a) {
+          const double average = mean[Lane::velocity + a];
+          const double r = step.residual[a][p] - average;
+          step.residual[a][p] = r;
+          rest2 += r * r;
+          mean2 += average * average;
+        }
+        double heat = 0.0;
+        if (takes_residual) heat += rest2;
+        if (takes_variance) heat += mean[Lane::variance];
+        if (takes_nodes) heat += mean[Lane::square];
+        if (takes_spread) heat += mean[Lane::square] - mean2;
+        step.filter_heat[p] += 0.5 * heat;
+      });
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from program import ALUMINIUM, ENVIRONMENT, MPIRUN, PROGRAM, ProgramTest, Result, closing_lines, particles, same_bits
+from program import ALUMINIUM, ENVIRONMENT, MPIRUN, PATIENCE, PROGRAM, ProgramTest, Result, closing_lines, particles, same_bits
 
 # Everything that was harmed must have ended by then.
 SECONDS = 30
@@ -63,7 +63,7 @@ class Running:
 
     def wait_for(self, what, seconds=60):
         """Polls until `what()` is true; an error when the program ends or nothing happens before."""
-        end = time.monotonic() + seconds
+        end = time.monotonic() + seconds * PATIENCE
         while not what():
             if self.process.poll() is not None and not what():
                 raise AssertionError(f"ended too early with {self.process.poll()}\n{self.output()}\n{self.errors()}")
@@ -85,7 +85,7 @@ class Running:
     def finish(self, seconds):
         """The result; an error when it does not end in time."""
         try:
-            code = self.process.wait(timeout=seconds)
+            code = self.process.wait(timeout=seconds * PATIENCE)
         except subprocess.TimeoutExpired:
             self.stop()
             raise AssertionError(f"did not end within {seconds} s\n{self.output()}\n{self.errors()}") from None

@@ -13,6 +13,8 @@ ROOT = Path(__file__).resolve().parents[2]
 MPIRUN = ROOT / "tools/mpirun"
 PROGRAM = Path(os.environ.get("PORESHOCK", ROOT / "build/release/poreshock"))
 # When a rank has failed, mpirun waits a second or two before it ends the others; here all have printed.
+# Factor on time limits, for builds that are slow.
+PATIENCE = float(os.environ.get("PORESHOCK_PATIENCE", "1"))
 ENVIRONMENT = os.environ | {"OMPI_MCA_odls_base_sigkill_timeout": "0"}
 
 ALUMINIUM = """
@@ -162,7 +164,7 @@ class ProgramTest(unittest.TestCase):
     @classmethod
     def call(cls, *arguments, ranks=1):
         done = subprocess.run(cls.command(*arguments, ranks=ranks), cwd=cls.folder, text=True,
-                              env=ENVIRONMENT, capture_output=True, check=False, timeout=300)
+                              env=ENVIRONMENT, capture_output=True, check=False, timeout=300 * PATIENCE)
         return Result(done.returncode, done.stdout, done.stderr)
 
     @classmethod

@@ -8,7 +8,7 @@ import time
 import h5py
 
 from faults import Running, tell
-from program import POROUS, ProgramTest, Result, closing_lines
+from program import PATIENCE, POROUS, ProgramTest, Result, closing_lines
 
 # Far longer than the test waits for it.
 LONG = POROUS.replace("end = 20e-9", "end = 10e-6").replace("every_steps = 25", "every_steps = 0")
@@ -48,7 +48,7 @@ class Stop(ProgramTest):
             while run.poll() is None and not (history.exists() and history.read_text().count("\n") > 2):
                 time.sleep(0.005)
             run.send_signal(signal.SIGUSR1)
-            output, errors = run.communicate(timeout=120)
+            output, errors = run.communicate(timeout=120 * PATIENCE)
         finally:
             run.kill()
         self.assert_stopped("signal", Result(run.returncode, output, errors))

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/material/library.hpp"
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/heat.hpp"
 #include "poreshock/physics/momentum.hpp"
@@ -71,7 +72,10 @@ Sample<Dim> prepare(const Case& c, const std::array<int, Dim>& cells) {
   fluid.young = fluid.yield = fluid.hardening = 0.0;
   if (c.conduction_and_spall) solid.spall = 3.0e8;
   s.conducts = c.conduction_and_spall;
-  s.materials = {make_material(solid), make_material(fluid)};
+  MaterialParameters flowing = library_material("copper")->parameters;
+  flowing.density = 2700.0;
+  flowing.strength = StrengthModel::johnson_cook;
+  s.materials = {make_material(solid), make_material(fluid), make_material(flowing)};
   s.settings.thermal = c.thermal;
   s.settings.averaging = c.transfer.averaging > 0.0;
   s.settings.viscosity = {0.6, 2.25};
@@ -118,8 +122,10 @@ void fill(reference::Random& random, Sample<Dim>& s) {
     // Ids in no order, as after migration.
     p.id[i] = (k * 7919LL) % 1000003;
     p.grain[i] = random.below(2);
-    p.material[i] = random.below(8) == 0 ? 1 : 0;
-    const bool solid = p.material[i] == 0;
+    const int kind = random.below(8);
+    p.material[i] = kind < 3 ? kind : 0;
+    const bool solid = p.material[i] != 1;
+    const bool hardens = p.material[i] == 0;
     p.density[i] = 2700.0 * (1.0 + 0.01 * centred());
     p.mass[i] = p.density[i] * (Dim == 2 ? 0.25 * cell * cell : 0.125 * cell * cell * cell);
     for (int a = 0; a < Dim; ++a) {
@@ -132,7 +138,7 @@ void fill(reference::Random& random, Sample<Dim>& s) {
     p.internal_energy[i] = 2.0e4 * random.uniform();
     for (int c = 0; c < symmetric_size<Dim>; ++c) {
       p.deviator[c][i] = solid ? 4.0e7 * centred() : 0.0;
-      p.back_stress[c][i] = solid ? 4.0e6 * centred() : 0.0;
+      p.back_stress[c][i] = hardens ? 4.0e6 * centred() : 0.0;
     }
     p.deviator[2][i] = -(p.deviator[0][i] + p.deviator[1][i]);
     p.back_stress[2][i] = -(p.back_stress[0][i] + p.back_stress[1][i]);

@@ -39,7 +39,7 @@ for grid in grids:
     assert grid.find("Topology").get("TopologyType") == "Polyvertex"
     assert grid.find("Topology").get("NumberOfElements") == "13"
     assert grid.find("Geometry").get("GeometryType") == "XY"
-    assert {a.get("Name") for a in grid.findall("Attribute")} == set(units) - {"position"}
+    assert {a.get("Name") for a in grid.findall("Attribute")} == set(units) - {"position"} | {"owner"}
     for item in grid.iter("DataItem"):
         name, path = item.text.split(":")
         with h5py.File(f"{folder}/{name}") as file:

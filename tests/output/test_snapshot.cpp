@@ -124,12 +124,18 @@ TEST(Snapshot, SubsetAndSinglePrecision) {
   Hdf5File file = Hdf5File::open(path, world);
   std::vector<std::string> names;
   for (const DatasetInfo& info : file.datasets()) names.push_back(info.path);
-  EXPECT_EQ(names, (std::vector<std::string>{"/particles/grain", "/particles/id",
-                                             "/particles/position", "/particles/temperature"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"/particles/grain", "/particles/id", "/particles/position",
+                                      "/particles/temperature", "/slabs/owner"}));
   EXPECT_EQ(file.dataset("/particles/id").type, NumberType::int64);
   EXPECT_EQ(file.dataset("/particles/grain").type, NumberType::int32);
   EXPECT_EQ(file.dataset("/particles/position").type, NumberType::float32);
   EXPECT_EQ(file.read_all<std::int64_t>("/particles/id"), physical_particles<2>(0, total).id);
+  // Each particle names the rank that wrote it; rows stand in the order of the ranks.
+  const std::vector<std::int32_t> owner = file.read_all<std::int32_t>("/slabs/owner");
+  EXPECT_TRUE(std::is_sorted(owner.begin(), owner.end()));
+  EXPECT_EQ(owner.front(), 0);
+  EXPECT_EQ(owner.back(), size(world) - 1);
 }
 
 TEST(Snapshot, ColumnsOfPhysicsInUse) {

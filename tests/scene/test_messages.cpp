@@ -87,6 +87,48 @@ TEST(Messages, MaterialRanges) {
   EXPECT_EQ(override_problems("material.0.young=0"), "");
 }
 
+/// A scene of one material, whose table begins at line 4 and holds these lines.
+std::string with_material(const std::string& lines) {
+  return "[domain]\n" + good_domain + "[[material]]\n" + lines +
+         "[sample]\nkind = \"solid\"\n[time]\nend = 1e-7\n";
+}
+
+TEST(Messages, MaterialsOfTheLibrary) {
+  const std::string names =
+      "\"paper_aluminium\", \"aluminium_6061_t6\", \"copper\", \"tungsten\", \"pmma\" or \"hmx\"";
+  EXPECT_EQ(problems(with_material("name = \"coper\"\n")),
+            "s.toml:5:8: material.0.name: found \"coper\", allowed " + names +
+                ", did you mean \"copper\"?");
+  EXPECT_EQ(problems(with_material("yield = 1e8\n")),
+            "s.toml:4:1: material.0.name: missing, give " + names);
+  EXPECT_EQ(
+      problems(with_material("name = \"pmma\"\nrate = 0.1\n")),
+      "s.toml:6:1: material.0.rate: unknown key, allowed name, model, density, young, poisson, "
+      "strength, yield, hardening, kinematic_share, plastic_heat, c0, lambda, gamma, cv, "
+      "conductivity, T0, spall");
+}
+
+TEST(Messages, StrengthModels) {
+  EXPECT_EQ(problems(with_material("name = \"pmma\"\nstrength = \"jonson_cook\"\n")),
+            "s.toml:6:12: material.0.strength: found \"jonson_cook\", allowed \"linear\", "
+            "\"johnson_cook\" or \"steinberg_guinan\", did you mean \"johnson_cook\"?");
+  const std::string cook = "name = \"copper\"\nstrength = \"johnson_cook\"\n";
+  EXPECT_EQ(
+      problems(with_material(cook + "johnson_cook = { exponent = 1.5 }\n")),
+      "s.toml:7:29: material.0.johnson_cook.exponent: found 1.5, allowed a number > 0 and <= 1");
+  EXPECT_EQ(problems(with_material(cook + "johnson_cook = { melting = 200 }\n")),
+            "s.toml:7:28: material.0.johnson_cook.melting: found 200 K, allowed more than "
+            "reference_temperature = 294 K");
+  EXPECT_EQ(problems(with_material("name = \"copper\"\nstrength = \"steinberg_guinan\"\n"
+                                   "steinberg_guinan = { limit = 1e6 }\n")),
+            "s.toml:7:30: material.0.steinberg_guinan.limit: found 1000000 Pa, allowed at least "
+            "yield = 120000000 Pa");
+  const std::string missing =
+      problems(with_material("name = \"tungsten\"\nstrength = \"johnson_cook\"\n"));
+  EXPECT_EQ(missing.substr(0, missing.find('\n')),
+            "s.toml:4:1: material.0.johnson_cook.yield: missing, give a number > 0 (Pa)");
+}
+
 TEST(Messages, MissingKeys) {
   EXPECT_EQ(problems(scene_with("size = [1e-4, 2e-4]\n")),
             "s.toml:1:1: domain.cell: missing, give a number > 0 (m)");

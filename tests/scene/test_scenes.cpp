@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "poreshock/material/library.hpp"
+#include "poreshock/scene/keys.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "scene_text.hpp"
 
@@ -241,6 +243,54 @@ TEST(Presets, LineageSetsDefaultsThatKeysOverride) {
   EXPECT_EQ(scene.transfer.velocity, VelocityTransfer::flip);
   EXPECT_EQ(scene.transfer.update, VelocityUpdate::musl);
   EXPECT_EQ(parse_scene(write_scene(scene), "again"), scene);
+}
+
+/// A scene of one material, whose table holds these lines.
+std::string scene_of_material(const std::string& lines) {
+  return "[domain]\n" + good_domain + "[[material]]\n" + lines +
+         "[sample]\nkind = \"solid\"\n[time]\nend = 1e-7\n";
+}
+
+TEST(Library, ANameTakesAllAndKeysOverride) {
+  const Scene scene = parse(scene_of_material("name = \"copper\"\nyield = 1e8\nT0 = 400\n"));
+  MaterialParameters expected = library_material("copper")->parameters;
+  expected.yield = 1e8;
+  expected.T0 = 400.0;
+  EXPECT_TRUE(scene.materials[0] == expected);
+  expect_round_trip(scene);
+}
+
+TEST(Library, StrengthModels) {
+  const Scene cook = parse(scene_of_material(
+      "name = \"copper\"\nstrength = \"johnson_cook\"\n[material.johnson_cook]\nrate = 0.01\n"));
+  EXPECT_EQ(cook.materials[0].johnson_cook.rate, 0.01);
+  EXPECT_EQ(cook.materials[0].johnson_cook.hardening, 292e6);
+  expect_round_trip(cook);
+  const Scene guinan =
+      parse(scene_of_material("name = \"tungsten\"\n"), {"material.0.strength=steinberg_guinan"});
+  EXPECT_EQ(guinan.materials[0].steinberg_guinan.limit, 4e9);
+  expect_round_trip(guinan);
+}
+
+// Every key that is read is listed once, with what the table of keys shows.
+TEST(Keys, ListTheTables) {
+  const std::vector<SceneKey> keys = scene_keys();
+  const auto find = [&](const std::string& table, const std::string& key) {
+    std::vector<SceneKey> found;
+    for (const SceneKey& k : keys) {
+      if (k.table == table && k.key == key) found.push_back(k);
+    }
+    EXPECT_EQ(found.size(), 1u) << table << "." << key;
+    return found.empty() ? SceneKey{} : found.front();
+  };
+  EXPECT_EQ(find("time", "cfl").standard, "0.5");
+  EXPECT_EQ(find("time", "cfl").allowed, "a number > 0 and <= 0.9");
+  EXPECT_EQ(find("domain", "cell").standard, "required");
+  EXPECT_EQ(find("profile", "every").standard, "");
+  EXPECT_EQ(find("material.johnson_cook", "melting").allowed, "a number > 0 (K)");
+  EXPECT_EQ(find("material.steinberg_guinan", "limit").allowed, "a number > 0 (Pa)");
+  EXPECT_TRUE(find("material", "yield").repeated);
+  for (const char* key : {"radius", "inner", "high", "points"}) find("body", key);
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "poreshock/material/material.hpp"
 #include "support/reference_eos.hpp"
 
 namespace poreshock::reference {
@@ -22,6 +24,8 @@ struct StressLaw {
   double cell = 0.0;  ///< m
   double cfl = 0.35;
   double spall = std::numeric_limits<double>::infinity();  ///< Pa, tension
+  /// In place of linear hardening, Pa of plastic strain and rate (1/s).
+  std::function<double(double, double)> flow{};
 };
 
 /// State of one particle.
@@ -67,6 +71,48 @@ inline Stretch left_stretch(const Eigen::Matrix3d& H) {
   const Eigen::Vector3d inverses = (-logs).array().exp().matrix();
   return {Q * inverses.asDiagonal() * Q.transpose() * (Eigen::Matrix3d::Identity() + H),
           Q * logs.asDiagonal() * Q.transpose()};
+}
+
+/// Flow stress of Johnson & Cook at a temperature (K).
+inline std::function<double(double, double)> johnson_cook(const JohnsonCookParameters& p,
+                                                          double temperature) {
+  const double cold =
+      (temperature - p.reference_temperature) / (p.melting - p.reference_temperature);
+  const double soft = 1.0 - std::pow(std::clamp(cold, 0.0, 1.0), p.softening);
+  return [=](double strain, double rate) {
+    const double hardened = p.yield + p.hardening * std::pow(strain, p.exponent);
+    return hardened * (1.0 + p.rate * std::log(std::max(1.0, rate / p.reference_rate))) * soft;
+  };
+}
+
+/// Flow stress of Steinberg, Cochran & Guinan at pressure (Pa), compression and temperature (K).
+inline std::function<double(double, double)> steinberg_guinan(const SteinbergGuinanParameters& p,
+                                                              double pressure, double compression,
+                                                              double temperature) {
+  const double modulus = 1.0 + p.pressure_rise * pressure / std::cbrt(compression) -
+                         p.temperature_fall * (temperature - p.reference_temperature);
+  return [=](double strain, double) {
+    const double hardened =
+        p.yield * std::pow(1.0 + p.hardening * (strain + p.initial_strain), p.exponent);
+    return std::min(hardened, p.limit) * std::max(modulus, 0.0);
+  };
+}
+
+/// Return by a flow stress over dt, found by bisection; returns the heat per volume.
+inline double return_to_flow(const StressLaw& law, const Eigen::Matrix3d& start, double dt,
+                             PointState& p) {
+  const double equivalent = std::sqrt(1.5) * p.deviator.norm();
+  const double triple_shear = 3.0 * law.solid.shear;
+  if (equivalent <= law.flow(p.plastic_strain, 0.0)) return 0.0;
+  double low = 0.0, high = equivalent / triple_shear;
+  for (int k = 0; k < 200; ++k) {
+    const double d = 0.5 * (low + high);
+    (equivalent - triple_shear * d > law.flow(p.plastic_strain + d, d / dt) ? low : high) = d;
+  }
+  const Eigen::Matrix3d normal = p.deviator / p.deviator.norm();
+  p.deviator -= std::sqrt(6.0) * law.solid.shear * low * normal;
+  p.plastic_strain += low;
+  return std::sqrt(1.5) * low * (0.5 * (start + p.deviator)).cwiseProduct(normal).sum();
 }
 
 /// Return to the yield surface in place; `start` is the rotated deviator of the start of the step.
@@ -138,7 +184,8 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
   p.deviator = start + 2.0 * (p.failed ? 0.0 : m.shear) *
                            (stretch.logarithm -
                             stretch.logarithm.trace() / 3.0 * Eigen::Matrix3d::Identity());
-  const double heat_per_volume = return_to_yield(law, start, p);
+  const double heat_per_volume =
+      law.flow ? return_to_flow(law, start, dt, p) : return_to_yield(law, start, p);
   const double v = 1.0 / p.density;
   p.plastic_work += 0.5 * (v0 + v) * heat_per_volume;
 

@@ -84,8 +84,8 @@ def connectivity(found):
     last = found.at("chi_paper", 150)[found.end]
     claims.append(Claim("chi(150 K) becomes ever more negative on loading",
                         f"{last:+.2e} at its end, rank correlation with time {falls:+.2f}",
-                        *judged(last < 0.0 and falls < -0.8, "The sign turns where the hot material stops being the background; "
-                                "ours is hotter than the paper's or cooler, see the areas.", last < 0.0 or falls < -0.5)))
+                        *judged(last < 0.0 and falls < -0.8, "Cold domains join or vanish once most of the sample is hotter than "
+                                "the threshold, so their number falls again before loading ends.", last < 0.0 or falls < -0.5)))
     for rise in (200, 250):
         rises = measures.rank_correlation(found.at("chi_paper", rise)[loaded])
         last = found.at("chi_paper", rise)[found.end]

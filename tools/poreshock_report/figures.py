@@ -38,18 +38,20 @@ def slice_of(particles):
 
 def pixel_mean(x, y, values, extent, pixel):
     """Mean of the values on square pixels; NaN without particles. Single gaps are bridged."""
-    shape = [max(1, int(numpy.ceil((high - low) / pixel))) for low, high in extent]
+    shape = [max(1, int(numpy.ceil((high - low) / pixel - 1e-6))) for low, high in extent]
     spans = [(low, low + n * pixel) for (low, _), n in zip(extent, shape)]
     count = numpy.histogram2d(x, y, bins=shape, range=spans)[0]
     total = numpy.histogram2d(x, y, bins=shape, range=spans, weights=values)[0]
     mean = numpy.where(count > 0, total / numpy.maximum(count, 1), numpy.nan)
-    # Particles are not on the pixels: an empty pixel with material on most sides is no void.
-    padded = numpy.pad(mean, 1, constant_values=numpy.nan)
-    around = numpy.stack([padded[1 + i:padded.shape[0] - 1 + i, 1 + j:padded.shape[1] - 1 + j]
-                          for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)])
-    known = numpy.isfinite(around)
-    bridge = (count == 0) & (known.sum(axis=0) >= 5)
-    mean[bridge] = numpy.where(known, around, 0.0).sum(axis=0)[bridge] / known.sum(axis=0)[bridge]
+    # Particles are not on the pixels: an empty pixel with material on most sides is no void, nor is what is then
+    # left where an empty row crosses an empty column.
+    for least in (5, 5, 8):
+        padded = numpy.pad(mean, 1, constant_values=numpy.nan)
+        around = numpy.stack([padded[1 + i:padded.shape[0] - 1 + i, 1 + j:padded.shape[1] - 1 + j]
+                              for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)])
+        known = numpy.isfinite(around)
+        bridge = numpy.isnan(mean) & (known.sum(axis=0) >= least)
+        mean[bridge] = numpy.where(known, around, 0.0).sum(axis=0)[bridge] / known.sum(axis=0)[bridge]
     return mean.T, spans
 
 

@@ -16,18 +16,19 @@ class App;
 
 namespace poreshock {
 
-enum class CommandKind { run, check, sample, analyze, compare, info };
+enum class CommandKind { run, check, sample, analyze, compare, info, materials, keys };
 
 /// What the command line asks for.
 struct Command {
   CommandKind kind = CommandKind::run;
-  std::string file;                    ///< scene, or the file to describe
+  std::string file;                    ///< scene, the file to describe, or a material's name
   std::vector<std::string> overrides;  ///< --set table.key=value
   std::string output;
   std::string restart;      ///< file or "latest"
   double wall_limit = 0.0;  ///< s
   bool force = false;
   bool quiet = false;
+  bool verbose = false;
   AnalyzeOptions analyze;
   CompareOptions compare;
 };

@@ -44,9 +44,10 @@ inline ReturnMapping<Dim> radial_return(const J2Plasticity& law, const Symmetric
   const double norm = std::sqrt(norm2);
   const double flow_stress = law.yield + law.isotropic * plastic_strain;
   const double excess = std::sqrt(1.5) * norm - flow_stress;
-  const double modulus = 3.0 * law.shear + law.isotropic + law.kinematic;
+  // The same for all particles of a loop, so it is no division there.
+  const double compliance = 1.0 / (3.0 * law.shear + law.isotropic + law.kinematic);
   // The selects keep 0/0 of a fluid (no shear modulus, no yield stress) out of the state.
-  const double step = excess > 0.0 ? excess / modulus : 0.0;
+  const double step = excess > 0.0 ? excess * compliance : 0.0;
   const double inverse_norm = excess > 0.0 ? 1.0 / norm : 0.0;
   const double back = std::sqrt(6.0) * law.shear * step * inverse_norm;
   const double shift = std::sqrt(2.0 / 3.0) * law.kinematic * step * inverse_norm;

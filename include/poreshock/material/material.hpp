@@ -5,9 +5,11 @@
 
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 
+#include "poreshock/material/flow_stress.hpp"
 #include "poreshock/material/j2_plasticity.hpp"
 #include "poreshock/material/mie_gruneisen.hpp"
 
@@ -15,6 +17,35 @@ namespace poreshock {
 
 enum class Thermal { paper, conserving };
 enum class PlasticHeat { work, dissipation };
+enum class StrengthModel { linear, johnson_cook, steinberg_guinan };
+
+/// Y = (A + B ep^n)(1 + C ln(rate/reference_rate))(1 - T*^m) with T* = 0 at the reference
+/// temperature and 1 at melting.
+struct JohnsonCookParameters {
+  double yield = 0.0;                    ///< Pa, A
+  double hardening = 0.0;                ///< Pa, B
+  double exponent = 1.0;                 ///< n
+  double rate = 0.0;                     ///< C
+  double reference_rate = 1.0;           ///< 1/s
+  double softening = 1.0;                ///< m
+  double melting = 0.0;                  ///< K
+  double reference_temperature = 300.0;  ///< K
+  bool operator==(const JohnsonCookParameters&) const = default;
+};
+
+/// Y = min(Y0 (1 + beta (ep + ei))^n, Ymax) (1 + A P/(rho/rho0)^(1/3) - B (T - T_ref)); the last
+/// bracket is that of the shear modulus, of which only the yield stress takes note here.
+struct SteinbergGuinanParameters {
+  double yield = 0.0;                    ///< Pa, Y0
+  double hardening = 0.0;                ///< beta
+  double exponent = 1.0;                 ///< n
+  double initial_strain = 0.0;           ///< ei
+  double limit = 0.0;                    ///< Pa, Ymax
+  double pressure_rise = 0.0;            ///< 1/Pa, A
+  double temperature_fall = 0.0;         ///< 1/K, B
+  double reference_temperature = 300.0;  ///< K
+  bool operator==(const SteinbergGuinanParameters&) const = default;
+};
 
 /// Isotropic elastic-plastic solid with J2 plasticity and a Mie-Grueneisen equation of state.
 struct MaterialParameters {
@@ -23,10 +54,13 @@ struct MaterialParameters {
   double density = 0.0;  ///< kg/m^3
   double young = 0.0;    ///< Pa; with poisson it gives the shear modulus only
   double poisson = 0.0;
-  double yield = 0.0;            ///< Pa
+  StrengthModel strength = StrengthModel::linear;
+  double yield = 0.0;            ///< Pa; this and the next three with linear hardening only
   double hardening = 0.0;        ///< Pa
   double kinematic_share = 0.0;  ///< 0 isotropic ... 1 kinematic
   PlasticHeat plastic_heat = PlasticHeat::work;
+  JohnsonCookParameters johnson_cook;
+  SteinbergGuinanParameters steinberg_guinan;
   double c0 = 0.0;            ///< m/s, bulk sound speed
   double lambda = 0.0;        ///< slope of Us = c0 + lambda Up
   double gamma = 0.0;         ///< constant Grueneisen coefficient
@@ -42,6 +76,7 @@ struct MaterialParameters {
 struct J2MieGruneisen {
   MieGruneisen eos;
   J2Plasticity strength;
+  std::optional<FlowStress> flow;  ///< in place of linear hardening
   TemperatureCurve temperature;
   PlasticHeat plastic_heat = PlasticHeat::work;
   double conductivity = 0.0;                               ///< W/(m K)

@@ -18,9 +18,10 @@ struct DeformationIncrement {
   SymmetricTensor<Dim> strain_deviator;
 };
 
-/// artanh(z)/z as a function of z^2: Pade approximant, relative error 0.023 z^6.
-inline double artanh_ratio(double z2) {
-  return (15.0 - 4.0 * z2) / (15.0 - 9.0 * z2);
+/// artanh(x/y)/x as a function of x^2 and y: Pade approximant, relative error 0.023 (x/y)^6.
+inline double artanh_over(double x2, double y) {
+  const double y2 = y * y;
+  return (15.0 * y2 - 4.0 * x2) / (y * (15.0 * y2 - 9.0 * x2));
 }
 
 /// Inverse of a symmetric 3 x 3 matrix (xx yy zz xy yz zx).
@@ -55,10 +56,10 @@ inline DeformationIncrement<2> deformation_increment(const std::array<double, 4>
   const double mean = 0.5 * (bxx + byy);
   const double half_difference = 0.5 * (bxx - byy);
   // ln of mean I + D with D traceless in the plane is (artanh(|D|/mean)/|D|) D plus a volume part.
-  const double z2 = (half_difference * half_difference + bxy * bxy) / (mean * mean);
-  const double factor = 0.5 * artanh_ratio(z2) / mean;
-  const double zj = (J - 1.0) / (J + 1.0);
-  const double third = 2.0 * zj * artanh_ratio(zj * zj) / 3.0;  // ln J / 3
+  const double d2 = half_difference * half_difference + bxy * bxy;
+  const double factor = 0.5 * artanh_over(d2, mean);
+  const double third =
+      2.0 / 3.0 * (J - 1.0) * artanh_over((J - 1.0) * (J - 1.0), J + 1.0);  // ln J/3
   const double plane = factor * half_difference;
   result.volume_ratio = J;
   result.strain_deviator = {0.5 * third + plane, 0.5 * third - plane, -third, factor * bxy};

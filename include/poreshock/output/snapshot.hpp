@@ -33,8 +33,9 @@ std::string snapshot_name(std::int64_t record);
 /// Writes /particles/... of all ranks into one sealed file, rank after rank in the order the
 /// particles are stored, replacing an older file. Fields as scene.output.fields says (all when
 /// empty), as float32 when the scene asks for single precision (ids, grains and materials stay
-/// integers). Returns the number of temperatures, over all ranks, that were set to the floor of 1
-/// K. Throws SystemError on all ranks when the disk is full. Collective.
+/// integers), and /slabs/owner, the rank of each particle. Returns the number of temperatures, over
+/// all ranks, that were set to the floor of 1 K. Throws SystemError on all ranks when the disk is
+/// full. Collective.
 template <int Dim>
 std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& input,
                             MPI_Comm communicator);

@@ -9,6 +9,9 @@
 
 namespace poreshock {
 
+/// Progress rows: none, one every two seconds, or one for every beat of the output.
+enum class ProgressRows { none, timed, every_beat };
+
 /// How a run is to be carried out; the scene says what is computed.
 struct RunOptions {
   std::string folder;
@@ -16,7 +19,8 @@ struct RunOptions {
   bool continues = false;   ///< the checkpoint lies in `folder`, whose records go on
   bool force = false;       ///< replace our files in an existing folder
   double wall_limit = 0.0;  ///< s, 0 = none: checkpoint and stop after it
-  bool quiet = false;       ///< no progress rows
+  ProgressRows rows = ProgressRows::timed;
+  bool quiet = false;  ///< no table of timings at the end
 };
 
 enum class RunEnd { finished, stopped };

@@ -1,0 +1,85 @@
+#include "poreshock/app/reference.hpp"
+
+#include <algorithm>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/material/library.hpp"
+#include "poreshock/scene/keys.hpp"
+
+namespace poreshock {
+
+namespace {
+
+std::string strengths(const MaterialParameters& material) {
+  std::string text = "linear";
+  if (has_strength(material, StrengthModel::johnson_cook)) text += ", johnson_cook";
+  if (has_strength(material, StrengthModel::steinberg_guinan)) text += ", steinberg_guinan";
+  return text;
+}
+
+std::string describe(const LibraryMaterial& material) {
+  return material.parameters.name + "\n  " + material.about +
+         "\n  strength: " + strengths(material.parameters) + "\n  source: " + material.source +
+         "\n";
+}
+
+std::string known_names() {
+  std::string names;
+  for (const LibraryMaterial& m : material_library()) {
+    names.append(names.empty() ? "" : ", ").append(m.parameters.name);
+  }
+  return names;
+}
+
+/// Text of a cell of a Markdown table.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
+    text.insert(at, 1, '\\');
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe_materials(const std::string& name) {
+  if (name.empty()) {
+    std::string text;
+    for (const LibraryMaterial& m : material_library()) text += describe(m);
+    return text + "\nname = \"copper\" in [[material]] takes all of one; other keys override it.\n";
+  }
+  const LibraryMaterial* material = library_material(name);
+  if (material == nullptr) {
+    throw InputError("found the material \"" + name + "\", allowed " + known_names());
+  }
+  MaterialParameters linear = material->parameters;
+  std::string text = "# " + material->about + "\n# source: " + material->source + "\n";
+  text += write_material(linear);
+  for (const StrengthModel model : {StrengthModel::johnson_cook, StrengthModel::steinberg_guinan}) {
+    if (!has_strength(linear, model)) continue;
+    MaterialParameters other = linear;
+    other.strength = model;
+    const std::string all = write_material(other);
+    text += "\n# with strength = " +
+            std::string(model == StrengthModel::johnson_cook ? "\"johnson_cook\""
+                                                             : "\"steinberg_guinan\"") +
+            all.substr(all.find("\n\n"));
+  }
+  return text;
+}
+
+std::string describe_keys() {
+  std::string text, table = "none yet";
+  for (const SceneKey& key : scene_keys()) {
+    if (key.table != table) {
+      table = key.table;
+      const std::string name = key.repeated ? "[[" + table + "]]" : "[" + table + "]";
+      text += (text.empty() ? "" : "\n") + (table.empty() ? "At the top" : "`" + name + "`") +
+              "\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n";
+    }
+    text += "| `" + key.key + "` | " + cell(key.standard) + " | " + cell(key.allowed) + " | " +
+            cell(key.about) + " |\n";
+  }
+  return text;
+}
+
+}  // namespace poreshock
