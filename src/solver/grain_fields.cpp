@@ -15,8 +15,9 @@ namespace poreshock {
 namespace {
 
 /// Cells that a sound wave crosses while a gap closes. Less, and grains that meet fast overlap more
-/// (4 % of the volume of a bed at 1100 m/s with grains of 6 cells at 0, 2.4 % at 2, 1.4 % at 4);
-/// more, and two elastic discs lose more energy (3.1, 3.5 and 6.1 % at 40 cells per diameter).
+/// (2.6 % of the volume of a bed at 1100 m/s at 0, 1.6 % at 2, 0.9 % at 4, when strained grains
+/// touch no earlier than others); more, and two elastic discs lose more energy (3.1, 3.5 and 6.1 %
+/// at 40 cells per diameter).
 constexpr double closing_cells = 2.0;
 
 template <int Dim>
