@@ -26,7 +26,8 @@ inline double deviator_energy(const Solid& m, double v, double q) {
 }
 
 /// State at volume v behind a jump from `ahead`: momentum, mass, energy; pressure linear in energy.
-inline State behind_jump(const Solid& m, const State& ahead, double v) {
+/// Without its temperature, which costs an integral: roots are sought with this.
+inline State mechanical_jump(const Solid& m, const State& ahead, double v) {
   State s;
   s.volume = v;
   const double strain = std::log(m.volume() / v);
@@ -44,10 +45,16 @@ inline State behind_jump(const Solid& m, const State& ahead, double v) {
                (1.0 - g * half);
   s.stress = s.pressure + axial;
   s.energy = before + half * (s.stress + ahead.stress) - stored;
-  s.temperature = temperature(m, v, s.energy);
   const double jump = std::sqrt((s.stress - ahead.stress) * (ahead.volume - v));
   s.velocity = ahead.velocity + jump;
   s.front = ahead.velocity + ahead.volume * jump / (ahead.volume - v);
+  return s;
+}
+
+/// The same with its temperature.
+inline State behind_jump(const Solid& m, const State& ahead, double v) {
+  State s = mechanical_jump(m, ahead, v);
+  s.temperature = temperature(m, v, s.energy);
   return s;
 }
 
@@ -69,7 +76,7 @@ inline Piston piston(const Solid& m, double up) {
   const auto reach = [&](const State& ahead) {
     const double v = first_root(
         [&](double x) {
-          const double velocity = behind_jump(m, ahead, x).velocity;
+          const double velocity = mechanical_jump(m, ahead, x).velocity;
           return velocity - up;
         },
         ahead.volume * (1.0 - 1e-9), ahead.volume * 0.55);
@@ -92,7 +99,7 @@ inline Piston piston(const Solid& m, double up) {
 inline double overdriven_above(const Solid& m) {
   const State precursor = yield_point(m);
   const double v =
-      first_root([&](double x) { return behind_jump(m, precursor, x).front - precursor.front; },
+      first_root([&](double x) { return mechanical_jump(m, precursor, x).front - precursor.front; },
                  precursor.volume * 0.999, precursor.volume * 0.55);
   return behind_jump(m, precursor, v).velocity;
 }
