@@ -6,7 +6,7 @@ _poreshock() {
     mapfile -t COMPREPLY < <(compgen -W "$commands --help --version" -- "$word")
   elif [[ $word == -* ]]; then
     local options
-    options=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null | grep -o -- '--[a-z-]*')
+    options=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null | grep -o -- '--[a-z-]*' | sort -u)
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
   elif [[ $before == --set ]]; then
     # Keys by their tables, the first of repeated ones: material.0.yield=

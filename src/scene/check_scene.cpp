@@ -29,6 +29,16 @@ bool whole_multiple(double value, double unit) {
 void check_domain(const Scene& scene, Report& report) {
   if (!good(report, {"domain.size", "domain.cell"})) return;
   const double cell = scene.domain.cell;
+  const auto sides = scene.domain.size.begin();
+  const double smallest = *std::min_element(sides, sides + scene.dimension);
+  if (cell > smallest) {
+    add_problem("domain.cell",
+                "found " + plain_number(cell) +
+                    " m, allowed up to a quarter of domain.size, here " +
+                    plain_number(smallest / least_lateral_cells) + " m; 10 um are 10e-6",
+                report);
+    return;
+  }
   for (int axis = 0; axis < scene.dimension; ++axis) {
     const double size = scene.domain.size[axis];
     const std::string found =
@@ -176,10 +186,17 @@ void check_beat(double value, const char* path, bool may_be_zero, double beat, R
 void check_output(const Scene& scene, Report& report) {
   const double beat = scene.output.beat;
   if (good(report, {"output.beat", "time.end"}) && scene.time.end / beat > most_beats) {
-    add_problem("output.beat",
-                "found " + plain_number(beat) + " s, allowed at least time.end / 1e9 = " +
-                    plain_number(scene.time.end / most_beats) + " s",
-                report);
+    // Who gave no beat has most likely given the end in another unit.
+    report.origins.contains("output.beat")
+        ? add_problem("output.beat",
+                      "found " + plain_number(beat) + " s, allowed at least time.end / 1e9 = " +
+                          plain_number(scene.time.end / most_beats) + " s",
+                      report)
+        : add_problem("time.end",
+                      "found " + plain_number(scene.time.end) +
+                          " s, allowed up to 1e9 times output.beat = " +
+                          plain_number(most_beats * beat) + " s; 100 ns are 100e-9",
+                      report);
   }
   check_beat(scene.output.snapshot, "output.snapshot", true, beat, report);
   check_beat(scene.output.history, "output.history", false, beat, report);

@@ -119,8 +119,10 @@ std::optional<toml::table> parse_document(const std::string& text, const std::st
     document = toml::parse(text, std::string_view(name));
   } catch (const toml::parse_error& error) {
     const toml::source_position place = error.source().begin;
+    const std::string reason(error.description());
+    const bool bare = reason.find("could not determine value type") != std::string::npos;
     add_problem_at({name, place.line, place.column}, "",
-                   "not valid TOML: " + std::string(error.description()), report);
+                   "not valid TOML: " + reason + (bare ? "; a text stands in quotes" : ""), report);
   }
   toml::table nowhere;
   for (const std::string& change : overrides) {

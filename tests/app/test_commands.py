@@ -1,7 +1,9 @@
 """The commands that run nothing: check, sample, info, and the options that print and end."""
+import re
+
 import numpy
 
-from program import BALLS, POROUS, ProgramTest, datasets, flip_byte, particles
+from program import ALUMINIUM, BALLS, POROUS, ProgramTest, datasets, flip_byte, particles
 
 
 class Commands(ProgramTest):
@@ -13,13 +15,39 @@ class Commands(ProgramTest):
         cls.run_scene("porous.toml", "run", "--set", "time.max_steps=25", ranks=2)
 
     def test_version(self):
-        self.assertRegex(self.succeed("--version").output, r"^\d+\.\d+\.\d+ \(\S+\)\n$")
+        self.assertRegex(self.succeed("--version").output,
+                         r"^poreshock \d+\.\d+\.\d+ \(\S+\)\ncompiler   \S+ \d\S+, \w+\nflags      -\S.* -ffp-contract=off .*\n"
+                         r"libraries  .*MPI.*, PETSc \d\S+ with \d\d-bit indices, HDF5 \d\S+, METIS \d\S+, Eigen \d\S+, "
+                         r"toml\+\+ \d\S+, CLI11 \d\S+, libpng \d\S+\n$")
+
+    def test_materials(self):
+        names = self.succeed("materials").output.split("\n")
+        self.assertEqual([name for name in names if name and name[0] != " "][:6],
+                         ["paper_aluminium", "aluminium_6061_t6", "copper", "tungsten", "pmma", "hmx"])
+        text = self.succeed("materials", "copper").output
+        scene = POROUS.replace(ALUMINIUM, "\n" + text.split("\n\n# with strength")[0])
+        self.write("copper.toml", scene + "\n")
+        self.write("by_name.toml", POROUS.replace(ALUMINIUM, '\n[[material]]\nname = "copper"\n'))
+        self.assertEqual(self.succeed("check", "copper.toml").output, self.succeed("check", "by_name.toml").output)
+        self.refuse('found the material "coper", allowed paper_aluminium, aluminium_6061_t6, copper, tungsten, pmma, hmx',
+                    "materials", "coper")
+
+    def test_progress_rows_go_to_a_terminal_or_are_asked_for(self):
+        head = r"step +time ns +dt ns +kinetic +internal +drift"
+        short = ("run", "porous.toml", "--set", "time.end=7.5e-9", "--force", "--output", "rows")
+        self.assertNotRegex(self.succeed(*short).output, head)
+        text = self.succeed(*short, "--verbose").output
+        self.assertRegex(text, head)
+        rows = re.findall(r"^ +\d+ +\d+\.\d{3} .*$", text, re.M)
+        self.assertGreaterEqual(len(rows), 2)
+        self.assertLessEqual(max(len(row) for row in rows), 100)
+        self.assertEqual(self.call(*short, "--verbose", "--quiet").code, 2)
 
     def test_help_names_every_command(self):
         text = self.succeed("--help", ranks=2).output
-        for word in ("run", "check", "sample", "info"):
+        for word in ("run", "check", "sample", "info", "materials", "keys"):
             self.assertRegex(text, rf"\n  {word} +\S")
-        for option in ("--output", "--restart", "--wall-time", "--force", "--quiet", "--set"):
+        for option in ("--output", "--restart", "--wall-time", "--force", "--quiet", "--verbose", "--set"):
             self.assertIn(option, self.succeed("run", "--help").output)
 
     def test_check_prints_the_scene_and_what_follows_and_writes_nothing(self):

@@ -91,11 +91,11 @@ class Commands(unittest.TestCase):
         return done.stdout.strip()
 
     def test_mpirun_options(self):
-        self.assertEqual(self.options(1), "1 -n 1 --bind-to none -x OMP_NUM_THREADS program a b")
-        self.assertEqual(self.options(2), "1 -n 2 -x OMP_NUM_THREADS program a b")
+        self.assertEqual(self.options(1), "1 -n 1 --bind-to none -x OMP_NUM_THREADS -x PORESHOCK_TERMINAL program a b")
+        self.assertEqual(self.options(2), "1 -n 2 -x OMP_NUM_THREADS -x PORESHOCK_TERMINAL program a b")
         self.assertEqual(self.options(3),
-                         "1 -n 3 --oversubscribe --bind-to none -x OMP_NUM_THREADS program a b")
-        self.assertEqual(self.options(64, SLURM_JOB_ID="7"), "1 -n 64 -x OMP_NUM_THREADS program a b")
+                         "1 -n 3 --oversubscribe --bind-to none -x OMP_NUM_THREADS -x PORESHOCK_TERMINAL program a b")
+        self.assertEqual(self.options(64, SLURM_JOB_ID="7"), "1 -n 64 -x OMP_NUM_THREADS -x PORESHOCK_TERMINAL program a b")
         self.assertEqual(self.call(ROOT / "tools/mpirun", "-n", "0", "program").returncode, 2)
 
     def test_cores_are_physical_and_usable(self):
