@@ -248,7 +248,7 @@ TEST(ElasticDiscs, LoseLittleEnergyAndNoMomentum) {
 TEST(DenseGrains, FillSpaceOnceUnderPressure) {
   const std::string text = R"(
 [domain]
-size = [0.15e-3, 0.42e-3]
+size = [0.15e-3, 0.425e-3]
 cell = 6.25e-6
 periodic = true
 [boundary]
