@@ -34,7 +34,7 @@ std::string known_names() {
 /// Text of a cell of a Markdown table.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
-    text.insert(at, "\\");
+    text.insert(at, 1, '\\');
   }
   return text;
 }
@@ -72,9 +72,15 @@ std::string describe_keys() {
   for (const SceneKey& key : scene_keys()) {
     if (key.table != table) {
       table = key.table;
-      const std::string name = key.repeated ? "[[" + table + "]]" : "[" + table + "]";
-      text += (text.empty() ? "" : "\n") + (table.empty() ? "At the top" : "`" + name + "`") +
-              "\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n";
+      const std::string_view open = key.repeated ? "`[[" : "`[",
+                             close = key.repeated ? "]]`" : "]`";
+      text += text.empty() ? "" : "\n";
+      if (table.empty()) {
+        text += "At the top";
+      } else {
+        text.append(open).append(table).append(close);
+      }
+      text += "\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n";
     }
     text += "| `" + key.key + "` | " + cell(key.standard) + " | " + cell(key.allowed) + " | " +
             cell(key.about) + " |\n";

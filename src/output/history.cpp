@@ -34,11 +34,11 @@ std::optional<std::int64_t> row_step(const std::string& line) {
 }
 
 /// The rows to go on from: header and complete rows up to `last_step`.
-std::string kept_rows(const std::string& path, int dimension, std::int64_t last_step) {
+std::string kept_rows(const std::string& path, int dimension, bool grains, std::int64_t last_step) {
   const std::string text = read_text(path);
   std::istringstream in(text);
   std::string line;
-  const std::string header = history_header(dimension);
+  const std::string header = history_header(dimension, grains);
   if (!std::getline(in, line) || line != header) {
     throw InputError(path + ":1: cannot be continued, its columns are not those of a " +
                      std::to_string(dimension) + "-D run of this program; move it away");
@@ -54,7 +54,7 @@ std::string kept_rows(const std::string& path, int dimension, std::int64_t last_
 
 }  // namespace
 
-std::string history_header(int dimension) {
+std::string history_header(int dimension, bool grains) {
   const bool plane = dimension == 2;
   const std::string energy = plane ? " [J/m]" : " [J]";
   const std::string momentum = plane ? " [kg/s]" : " [kg m/s]";
@@ -71,7 +71,12 @@ std::string history_header(int dimension) {
       header.append(",").append(name).append(axis).append(momentum);
     }
   }
-  return header.append(",wall_force").append(plane ? " [N/m]" : " [N]").append(",guards [-]");
+  header.append(",wall_force").append(plane ? " [N/m]" : " [N]").append(",guards [-]");
+  if (grains) {
+    header.append(
+        ",contact_nodes [-],crowded_nodes [-],least_gap [m],penetration [m],momentum_residual [-]");
+  }
+  return header;
 }
 
 std::string history_line(const HistoryRow& row, int dimension) {
@@ -92,15 +97,23 @@ std::string history_line(const HistoryRow& row, int dimension) {
   }
   add(row.wall_force, line);
   add(row.guards, line);
+  if (row.contact) {
+    add(row.contact->nodes, line);
+    add(row.contact->crowded, line);
+    for (const double value :
+         {row.contact->least_gap, row.contact->penetration, row.contact->residual}) {
+      add(value, line);
+    }
+  }
   return line;
 }
 
-HistoryWriter::HistoryWriter(const std::string& path, int dimension, MPI_Comm communicator,
-                             std::optional<std::int64_t> restart_step)
-    : path_(path), dimension_(dimension), communicator_(communicator) {
+HistoryWriter::HistoryWriter(const std::string& path, int dimension, bool grains,
+                             MPI_Comm communicator, std::optional<std::int64_t> restart_step)
+    : path_(path), dimension_(dimension), grains_(grains), communicator_(communicator) {
   on_rank_zero(communicator_, [&] {
     if (restart_step && std::filesystem::exists(path)) {
-      write_text(path, kept_rows(path, dimension, *restart_step));
+      write_text(path, kept_rows(path, dimension, grains, *restart_step));
       file_ = std::make_unique<FileDescriptor>(path, O_WRONLY);
       end_ = file_->size();
     } else {
@@ -124,7 +137,7 @@ void HistoryWriter::append(const std::string& line) {
     end_ = 0;
   }
   // In one piece with the first row, so that no file is left without its header.
-  const std::string text = (end_ == 0 ? history_header(dimension_) + '\n' : "") + line;
+  const std::string text = (end_ == 0 ? history_header(dimension_, grains_) + '\n' : "") + line;
   file_->write(end_, reinterpret_cast<const std::byte*>(text.data()), text.size());
   end_ += text.size();
 }

@@ -66,6 +66,10 @@ std::string describe_hdf5(const std::string& path) {
   return out.str();
 }
 
+bool is_history(const std::string& header, int dimension) {
+  return header == history_header(dimension, false) || header == history_header(dimension, true);
+}
+
 std::string describe_history(const std::string& path, const std::string& text) {
   std::istringstream in(text);
   std::string header;
@@ -75,7 +79,7 @@ std::string describe_history(const std::string& path, const std::string& text) {
   std::int64_t rows = 0;
   for (; std::getline(in, line); ++rows) last = line;
   std::ostringstream out;
-  out << path << ": history of a " << (header == history_header(2) ? "2-D" : "3-D")
+  out << path << ": history of a " << (is_history(header, 2) ? "2-D" : "3-D")
       << " run of poreshock\nrows      " << rows << "\n";
   if (rows > 0) {
     const std::size_t comma = last.find(',');
@@ -94,7 +98,7 @@ std::string describe(const std::string& path) {
   if (name.ends_with(".h5")) return describe_hdf5(path);
   const std::string text = read_text(path);
   const std::string first = text.substr(0, text.find('\n'));
-  if (first == history_header(2) || first == history_header(3)) return describe_history(path, text);
+  if (is_history(first, 2) || is_history(first, 3)) return describe_history(path, text);
   if (name == "timings.json") return path + ": timings of a run of poreshock\n" + text;
   if (name.ends_with(".toml")) return path + ": scene\n" + text;
   if (name == "snapshots.xdmf") {

@@ -62,6 +62,7 @@ NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
   NodeGrain<Dim> grain;
   grain.mass = motion[Motion::mass];
   grain.volume = surface[Surface::volume];
+  grain.strain = grain.volume > 0.0 ? surface[Surface::strain] / grain.volume : 0.0;
   for (int a = 0; a < Dim; ++a) {
     grain.start[a] = motion[Motion::start_velocity + a];
     grain.end[a] = motion[Motion::end_velocity + a];
@@ -167,7 +168,6 @@ ContactSummary collide_grains(const std::vector<ContactField>& fields,
   double space = 1.0;
   for (int a = 0; a < Dim; ++a) space *= shape.cell;
   ContactSummary summary;
-  summary.least_gap = std::numeric_limits<double>::infinity();
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
     const double along = space * share_inside(row, shape.rows, false, beyond);

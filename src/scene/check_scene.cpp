@@ -29,8 +29,8 @@ bool whole_multiple(double value, double unit) {
 void check_domain(const Scene& scene, Report& report) {
   if (!good(report, {"domain.size", "domain.cell"})) return;
   const double cell = scene.domain.cell;
-  const auto& size = scene.domain.size;
-  const double smallest = *std::min_element(size.begin(), size.begin() + scene.dimension);
+  const auto sides = scene.domain.size.begin();
+  const double smallest = *std::min_element(sides, sides + scene.dimension);
   if (cell > smallest) {
     add_problem("domain.cell",
                 "found " + plain_number(cell) +

@@ -11,11 +11,11 @@ namespace {
 /// memory.
 template <int Dim>
 inline Lanes surface_lanes(double volume, const std::array<double, Dim>& slope,
-                           const std::array<double, Dim>& place) {
+                           const std::array<double, Dim>& place, double strain) {
   if constexpr (Dim == 2) {
-    return Lanes{volume, slope[0], slope[1], place[0], place[1], 0.0, 0.0, 0.0};
+    return Lanes{volume, slope[0], slope[1], place[0], place[1], strain, 0.0, 0.0};
   } else {
-    return Lanes{volume, slope[0], slope[1], slope[2], place[0], place[1], place[2], 0.0};
+    return Lanes{volume, slope[0], slope[1], slope[2], place[0], place[1], place[2], strain};
   }
 }
 
@@ -32,6 +32,7 @@ void scatter_surfaces(const Particles<Dim>& particles, const CellOrder& cells,
         [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
           const double volume = particles.mass[p] / particles.density[p];
           const double per_cell = volume / cell;
+          const double strain = particles.plastic_strain[p];
           for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
             const double share = volume * node_weight<Dim, Spline>(stencil, n);
             const int index[3] = {n % w, Dim == 3 ? (n / w) % w : n / w, n / (w * w)};
@@ -40,7 +41,7 @@ void scatter_surfaces(const Particles<Dim>& particles, const CellOrder& cells,
               slope[a] = per_cell * node_slope<Dim, Spline>(stencil, n, a);
               place[a] = -share * stencil.axis[a].offset[index[a]] * cell;
             }
-            sums[n] += surface_lanes<Dim>(share, slope, place);
+            sums[n] += surface_lanes<Dim>(share, slope, place, share * strain);
           }
         },
         surfaces);

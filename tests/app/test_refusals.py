@@ -102,7 +102,8 @@ class RefusedCommandLines(ProgramTest):
         self.refuse_line("A subcommand is required\nRun with --help for more information.")
 
     def test_unknown_command(self):
-        self.refuse_line('poreshock: unknown command "walk", allowed run, check, sample, analyze, compare, info; see --help\n', "walk",
+        self.refuse_line('poreshock: unknown command "walk", allowed run, check, sample, analyze, compare, info, '
+                         'materials, keys; see --help\n', "walk",
                          "scene.toml")
 
     def test_missing_scene(self):

@@ -140,7 +140,7 @@ class FinishedRun(ProgramTest):
         self.assertEqual([float(grid.find("Time").get("Value")) for grid in grids], [0.0, 10e-9, 20e-9])
         for grid in grids:
             items = list(grid.iter("DataItem"))
-            self.assertEqual(len(items), 14)
+            self.assertEqual(len(items), 15)
             for item in items:
                 name, path = item.text.split(":")
                 with h5py.File(self.folder / "on2" / name) as file:
@@ -168,7 +168,7 @@ class FinishedRun(ProgramTest):
 class ProgressRows(ProgramTest):
     def test_a_run_that_is_not_quiet_prints_its_phases(self):
         self.write("porous.toml", POROUS)
-        result = self.succeed("run", "porous.toml", "--output", "loud", "--set", "time.max_steps=3")
+        result = self.succeed("run", "porous.toml", "--output", "loud", "--set", "time.max_steps=3", "--verbose")
         self.assertRegex(result.output, r"^    step   time ns     dt ns    kinetic   internal     drift")
         self.assertRegex(result.output, r"\nstress +\d+\.\d{3} +\d+\.\d{3} +\d+\.\d{3} +\d+\.\d%\n")
         self.assertRegex(result.output, r"\n3 steps in \S+ s on 1 ranks: \S+ million particle-steps")

@@ -1,6 +1,7 @@
 // history.csv: exact header, exact numbers, and a restart that leaves no row twice.
 #include "poreshock/output/history.hpp"
 
+#include <limits>
 #include <sstream>
 
 #include "output/support.hpp"
@@ -50,8 +51,8 @@ std::vector<std::string> lines(const std::string& path) {
 }
 
 TEST(History, HeaderAndNumbers) {
-  EXPECT_EQ(history_header(2), plane_header);
-  const std::string solid = history_header(3);
+  EXPECT_EQ(history_header(2, false), plane_header);
+  const std::string solid = history_header(3, false);
   EXPECT_TRUE(contains(solid, "kinetic [J],")) << solid;
   EXPECT_TRUE(contains(solid, ",momentum_z [kg m/s],escaped_momentum_x [kg m/s],")) << solid;
   EXPECT_TRUE(contains(solid, ",total_momentum_z [kg m/s],wall_force [N],guards [-]")) << solid;
@@ -63,10 +64,25 @@ TEST(History, HeaderAndNumbers) {
             "0.5,0.25,0.125,-0,3,6,5,7,11,-3.5,-11.75,-12.875,1000000000,9");
 }
 
+TEST(History, GrainsAddColumns) {
+  EXPECT_EQ(history_header(2, true),
+            plane_header +
+                ",contact_nodes [-],crowded_nodes [-],least_gap [m],penetration [m],"
+                "momentum_residual [-]");
+  HistoryRow row = sample_row(3);
+  const std::string plain = history_line(row, 2);
+  row.contact = {
+      .nodes = 12, .crowded = 3, .least_gap = 0.5, .penetration = 0.25, .residual = 1e-16};
+  EXPECT_EQ(history_line(row, 2), plain + ",12,3,0.5,0.25,9.9999999999999998e-17");
+  row.contact = ContactRow{};
+  row.contact->least_gap = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(history_line(row, 2), plain + ",0,0,inf,0,0");
+}
+
 TEST(History, RowsAreThereAtOnce) {
   const TemporaryFolder folder;
   const std::string path = folder / "history.csv";
-  HistoryWriter history(path, 2, world);
+  HistoryWriter history(path, 2, false, world);
   history.write(sample_row(1));
   history.write(sample_row(2));
   // Still open: a killed run would leave these rows.
@@ -79,12 +95,12 @@ TEST(History, RestartDropsLaterAndBrokenRows) {
   const TemporaryFolder folder;
   const std::string path = folder / "history.csv";
   {
-    HistoryWriter history(path, 2, world);
+    HistoryWriter history(path, 2, false, world);
     for (const std::int64_t step : {0, 10, 20, 30}) history.write(sample_row(step));
   }
   test::rank_zero_alone([&] { std::ofstream(path, std::ios::app) << "1e-9,15,1e-1"; });
   {
-    HistoryWriter history(path, 2, world, 20);
+    HistoryWriter history(path, 2, false, world, 20);
     history.write(sample_row(25));
   }
   const auto found = lines(path);
@@ -101,16 +117,16 @@ TEST(History, RestartDropsLaterAndBrokenRows) {
 TEST(History, RestartOfAnotherKindOfFileIsRefused) {
   const TemporaryFolder folder;
   const std::string path = folder / "history.csv";
-  { HistoryWriter history(path, 3, world); }
+  { HistoryWriter history(path, 3, false, world); }
   MPI_Barrier(world);
-  const std::string text = thrown<InputError>([&] { HistoryWriter(path, 2, world, 5); });
+  const std::string text = thrown<InputError>([&] { HistoryWriter(path, 2, false, world, 5); });
   EXPECT_TRUE(contains(text, path) && contains(text, "columns")) << text;
-  HistoryWriter fresh(folder / "fresh.csv", 2, world, 5);
+  HistoryWriter fresh(folder / "fresh.csv", 2, false, world, 5);
   EXPECT_EQ(lines(folder / "fresh.csv"), (std::vector<std::string>{plane_header}));
 }
 
 TEST(History, FullDiskIsAnErrorOnAllRanks) {
-  const std::string text = thrown<SystemError>([] { HistoryWriter("/dev/full", 2, world); });
+  const std::string text = thrown<SystemError>([] { HistoryWriter("/dev/full", 2, false, world); });
   EXPECT_TRUE(contains(text, "/dev/full") && contains(text, "no space left")) << text;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "poreshock/physics/contact.hpp"
@@ -113,7 +114,7 @@ TEST(Contact, AGapMayCloseButNotMore) {
     for (auto& g : grains) g.volume *= 0.9;
     const ContactSettings settings = settings_of(0.0);
     // The face stands on the node: density 2/3 per cell of width.
-    const double gap = 0.1 * cell * 1.5 - touching_gap * cell;
+    const double gap = 0.1 * cell * 1.5 - touching_gap(0.0) * cell;
     const ContactReport report = resolve_contact<2>(grains, settings, cubic_faces());
     EXPECT_NEAR(report.least_gap, gap, 1e-3 * gap);
     const double end = grains[0].end[1] - grains[1].end[1];
@@ -202,6 +203,54 @@ TEST(Contact, FourGrainsAtACorner) {
   for (const auto& g : resting) EXPECT_EQ(g.end, Vector<2>(3.0, 4.0));
 }
 
+// A pressure that is the same in grains which fill a node pulls each along its gradient, and moves
+// none against another: at a corner of three, of four, and of any shape.
+TEST(Contact, UniformPressureMovesNoGrainsThatFillTheNode) {
+  reference::Random random{17U};
+  for (int n = 0; n < 300; ++n) {
+    const int count = 3 + n % 2;
+    std::vector<NodeGrain<2>> grains(static_cast<std::size_t>(count));
+    Vector<2> rest = Vector<2>::Zero();
+    double left = cell * cell;
+    for (int g = 0; g < count; ++g) {
+      // Sectors of the node, their outward gradients roughly against their places.
+      const double angle = 2.0 * std::numbers::pi * (g + 0.5 * random.uniform()) / count;
+      NodeGrain<2>& grain = grains[static_cast<std::size_t>(g)];
+      grain.volume = g + 1 < count ? cell * cell / count * (0.6 + 0.7 * random.uniform()) : left;
+      left -= grain.volume;
+      grain.mass = 2700.0 * grain.volume;
+      grain.gradient = g + 1 < count
+                           ? Vector<2>(-0.5 * cell * std::cos(angle), -0.5 * cell * std::sin(angle))
+                           : rest;
+      rest -= grain.gradient;
+      grain.end = grain.gradient * (10e9 * 3e-10 / grain.mass);  // 10 GPa for one step
+    }
+    double fastest = 0.0;
+    for (const auto& g : grains) fastest = std::max(fastest, g.end.norm());
+    ContactSettings settings = settings_of(0.0);
+    settings.gap_test = false;  // the sectors are not those of real faces
+    const ContactReport report = resolve_contact<2>(grains, settings, cubic_faces());
+    for (const auto& g : grains) ASSERT_LE(g.end.norm(), 0.01 * fastest) << "case " << n;
+    EXPECT_GE(report.loss, 0.0);
+  }
+}
+
+TEST(Contact, StrainedGrainsTouchEarlier) {
+  EXPECT_DOUBLE_EQ(touching_gap(0.0), 0.05);
+  EXPECT_DOUBLE_EQ(touching_gap(0.05), 0.1);
+  EXPECT_DOUBLE_EQ(touching_gap(3.0), 0.15);
+  auto grains = touching(1e-6, 1e-6, {0.0, 250.0}, {0.0, -250.0});
+  for (auto& g : grains) g.volume *= 0.9;
+  const double filled = grains[0].volume + grains[1].volume;
+  const double fresh = pair_gap<2>(grains[0], grains[1], filled, settings_of(0.0), cubic_faces());
+  for (auto& g : grains) g.strain = 0.05;
+  EXPECT_NEAR(pair_gap<2>(grains[0], grains[1], filled, settings_of(0.0), cubic_faces()),
+              fresh - 0.05 * cell, 1e-12 * cell);
+  for (auto& g : grains) g.strain = 1.0;
+  EXPECT_NEAR(pair_gap<2>(grains[0], grains[1], filled, settings_of(0.0), cubic_faces()),
+              std::max(fresh - 0.1 * cell, 0.0), 1e-12 * cell);
+}
+
 // One particle has no face: the line between the two takes its place, without friction.
 TEST(Contact, GrainsWithoutFacesPushAlongTheirDistance) {
   auto grains = touching(1e-9, 1e-6, {30.0, 40.0}, {0.0, 0.0});
@@ -260,7 +309,7 @@ TEST(PairGap, FlatFacesAtAnyPhase) {
         const auto b = slab(phase + 0.5 * gap, phase + 0.5 * gap + 6.0, side);
         const double both = a.volume + b.volume;
         const double found = pair_gap<2>(a, b, both, settings_of(0.0), cubic_faces()) / cell;
-        const double margin = touching_gap;
+        const double margin = touching_gap(0.0);
         SCOPED_TRACE(::testing::Message()
                      << "phase " << phase << " gap " << gap << " side " << side);
         if (gap == 0.0) {

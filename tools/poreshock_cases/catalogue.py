@@ -2,7 +2,7 @@
 from dataclasses import dataclass
 from typing import Callable
 
-from poreshock_cases import bits, free, impact, voids
+from poreshock_cases import bits, contacts, free, impact, voids
 
 POROUS_GUARDS = 1e-4  # of the particle-steps, where voids collapse
 
@@ -30,6 +30,10 @@ CASES = {
     "void_at_boundary": Case("void at the wall, void open to the free surface", voids.at_boundary, POROUS_GUARDS),
     "spray": Case("single particles in empty space", free.spray),
     "needle": Case("needle of aspect ratio 20 on the wall", free.needle),
+    "slender": Case("needle of aspect ratio 20 on another grain", contacts.slender),
+    "small": Case("grains smaller than a cell", contacts.small),
+    "layers": Case("soft and stiff grain: modulus 1000 times, density 20 times", contacts.layers),
+    "crowd": Case("three and four grains at a node", contacts.crowd, POROUS_GUARDS),
     "steps": Case("time steps up to 0.9 of the limit", impact.steps, POROUS_GUARDS),
     "restart": Case("restart in the middle of a shock", bits.restart, POROUS_GUARDS),
     "ranks": Case("cuts through voids", bits.ranks, POROUS_GUARDS),

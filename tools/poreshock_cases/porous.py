@@ -16,13 +16,14 @@ SEEDS = (1, 2, 3, 4)
 FIGURES = (("Us", 0.02), ("P at the wall", 0.05), ("P behind the front", 0.05), ("rise of mean T", 0.08),
            ("rise of mean T + fluctuation / c_v", 0.04))
 COLLAPSE_CELLS = (10e-6, 5e-6, 2.5e-6)  # m
+FINE_CELL = 2.5e-6  # m
 JUDGED_CELL = 5e-6  # m, the others show the trend
 
 
-def measured(lab, voids, end, seed):
+def measured(lab, voids, end, seed, cell=5e-6):
     """One sample: measured figures, each over that of the snow-plow shock of its own void fraction."""
-    run = lab.run(f"hugoniot_{voids:g}_{seed}", "porous_hugoniot.toml", f"sample.porosity={voids:g}",
-                  f"sample.seed={seed}", f"time.end={end!r}", "profile.every=5e-9")
+    run = lab.run(f"hugoniot_{voids:g}_{1e6 * cell:g}_{seed}", "porous_hugoniot.toml", f"sample.porosity={voids:g}",
+                  f"sample.seed={seed}", f"domain.cell={cell!r}", f"time.end={end!r}", "profile.every=5e-9")
     scene = profiles.reader.read_scene(run.folder)
     setting, rows = profiles.setting_of(scene), profiles.read(run.folder)
     fit = profiles.fit_front(rows, setting)
@@ -42,18 +43,20 @@ def measured(lab, voids, end, seed):
             state["velocity"], moving, 100.0 * state["void_fraction"], run.drift]
 
 
-def hugoniot(sample, found):
+def hugoniot(sample, found, cell=5e-6):
     """Rows of the mean state behind the front over the samples of one porosity at 1100 m/s; five wall cells are left
     out."""
-    case = f"porous Hugoniot, void fraction {sample[0]:g}, 1100 m/s, 5 um, {len(SEEDS)} samples"
+    many = f"{len(found)} samples" if len(found) > 1 else "one sample"
+    case = f"porous Hugoniot, void fraction {sample[0]:g}, 1100 m/s, {1e6 * cell:g} um, {many}"
     values = numpy.array(found).T
-    mean, error = values.mean(axis=1), values.std(axis=1, ddof=1) / len(SEEDS)**0.5
-    off = [f"{100.0 * (x - 1.0):+.1f} % +- {100.0 * e:.1f} %" for x, e in zip(mean, error)]
+    mean = values.mean(axis=1)
+    error = values.std(axis=1, ddof=1) / len(found)**0.5 if len(found) > 1 else numpy.full(len(mean), numpy.nan)
+    off = [f"{100.0 * (x - 1.0):+.1f} %" + (f" +- {100.0 * e:.1f} %" if e == e else "") for x, e in zip(mean, error)]
     rows = [check(case, figure, off[i], f"snow-plow +- {100.0 * bar:g} %", abs(mean[i] - 1.0) <= bar)
             for i, (figure, bar) in enumerate(FIGURES)]
     rows += [shown(case, f"{figure}, against the snow-plow of the measured Up", off[i])
              for i, (figure, _) in enumerate(FIGURES[2:], len(FIGURES))]
-    return rows + [shown(case, "Up behind the front", f"{mean[-4]:.0f} +- {error[-4]:.0f} m/s"),
+    return rows + [shown(case, "Up behind the front", f"{mean[-4]:.0f} m/s"),
                    shown(case, "residual velocity fluctuation / c_v", f"{mean[-3]:.1f} K"),
                    shown(case, "space behind the front that no particle fills", f"{mean[-2]:.1f} %"),
                    limit(case, "energy drift", values[-1].max(), DRIFT)]
@@ -108,11 +111,14 @@ def plane_step(lab, cell):
     return run.history["dt"][5:].min()
 
 
-def rows(lab, jobs):
-    """All rows of porous samples."""
+def rows(lab, jobs, fine):
+    """All rows of porous samples; with `fine` also the one whose gaps need cells half as large."""
     runs = [(*sample, seed) for sample in SAMPLES for seed in SEEDS]
     with ThreadPoolExecutor(jobs) as pool:
         shocks = [*pool.map(lambda run: measured(lab, *run), runs)]
         collapses = [*pool.map(partial(collapse, lab), COLLAPSE_CELLS)]
     found = [hugoniot(sample, shocks[i * len(SEEDS):(i + 1) * len(SEEDS)]) for i, sample in enumerate(SAMPLES)]
+    if fine:
+        sample = SAMPLES[-1]
+        found.append(hugoniot(sample, [measured(lab, *sample, SEEDS[0], FINE_CELL)], FINE_CELL))
     return [row for part in found + collapses for row in part]

@@ -43,14 +43,16 @@ def pixel_mean(x, y, values, extent, pixel):
     count = numpy.histogram2d(x, y, bins=shape, range=spans)[0]
     total = numpy.histogram2d(x, y, bins=shape, range=spans, weights=values)[0]
     mean = numpy.where(count > 0, total / numpy.maximum(count, 1), numpy.nan)
-    # Particles are not on the pixels: an empty pixel with material on most sides is no void, nor is what is then
-    # left where an empty row crosses an empty column.
-    for least in (5, 5, 8):
+    # Particles are not on the pixels: an empty pixel with material on most sides, or on two that face each other, is
+    # no void, nor is what is then left where an empty row crosses an empty column.
+    for crossing in (False, True):
         padded = numpy.pad(mean, 1, constant_values=numpy.nan)
         around = numpy.stack([padded[1 + i:padded.shape[0] - 1 + i, 1 + j:padded.shape[1] - 1 + j]
                               for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)])
         known = numpy.isfinite(around)
-        bridge = numpy.isnan(mean) & (known.sum(axis=0) >= least)
+        between = known.sum(axis=0) >= 5
+        between |= (known[1] & known[6]) | (known[3] & known[4])
+        bridge = numpy.isnan(mean) & (known.all(axis=0) if crossing else between)
         mean[bridge] = numpy.where(known, around, 0.0).sum(axis=0)[bridge] / known.sum(axis=0)[bridge]
     return mean.T, spans
 

@@ -9,7 +9,7 @@ import numpy
 
 from . import figures
 from . import folder as reader
-from . import frames, profile_figures, profiles
+from . import frames, grain_figures, profile_figures, profiles
 
 STYLE = """
 :root { color-scheme: light; }
@@ -156,6 +156,17 @@ def hugoniot_table(folder):
     return f"<section><h2>{title}</h2>{table(profiles.HEAD, rows)}{text}</section>"
 
 
+def grain_sections(folder):
+    """Sections of a run with several grains; none for others."""
+    if not grain_figures.present(folder):
+        return []
+    return [picture(folder, "grains", "Grains", "Above: one shade for each grain, as many as there are in the palette. Below: "
+                    "temperature on one scale.", lambda: grain_figures.grains(folder)),
+            picture(folder, "contact", "Contact", "Nodes at which grains push each other, those at which more than two meet, "
+                    "the least gap and the largest penetration of the step, and the heat so far.",
+                    lambda: grain_figures.contact(folder))]
+
+
 def write(folder):
     """Writes report.html and pictures/ into `folder`; returns the path of the page."""
     notes = ""
@@ -187,6 +198,7 @@ def write(folder):
         picture(folder, "front", "Path of the front", "Where the row mean of the velocity, seen from the top, first "
                 "is half of the way to the wall's; below: distance from the straight line.",
                 lambda: profile_figures.front(folder)),
+        *grain_sections(folder),
         hugoniot_table(folder),
         picture(folder, "energy", "Energy ledger", "Above: kinetic, internal and total energy. Middle: where the "
                 "energy went. Below: how far the total is from its first value.",

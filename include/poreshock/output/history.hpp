@@ -13,6 +13,15 @@
 
 namespace poreshock {
 
+/// Contact between grains in the last step, over all ranks.
+struct ContactRow {
+  std::int64_t nodes = 0;    ///< at which grains pushed each other
+  std::int64_t crowded = 0;  ///< at which more than two grains met
+  double least_gap = 0.0;    ///< m, of all nodes that two grains share; infinite without one
+  double penetration = 0.0;  ///< m, largest by which grains overfill a node
+  double residual = 0.0;     ///< largest share of a node's impulses that did not cancel
+};
+
 /// Totals of a run at one time; energies in J (J per metre of depth in plane strain).
 struct HistoryRow {
   double time = 0.0;  ///< s
@@ -41,10 +50,11 @@ struct HistoryRow {
   double wall_force = 0.0;  ///< N (N/m), shock axis, of walls and symmetry planes on the material,
                             ///< mean since the row before; 0 in the first row
   std::int64_t guards = 0;  ///< clamps and floors so far
+  std::optional<ContactRow> contact;  ///< only in runs of several grains
 };
 
-/// First line of the file, without its end of line.
-std::string history_header(int dimension);
+/// First line of the file, without its end of line. `grains`: with the columns of contact.
+std::string history_header(int dimension, bool grains);
 
 /// One line of the file, without its end of line; 17 significant digits.
 std::string history_line(const HistoryRow& row, int dimension);
@@ -56,7 +66,7 @@ class HistoryWriter {
   /// Starts a new file. With `restart_step` it goes on with the one there is: rows of later steps
   /// and a line cut off by a killed run are dropped first; a missing file is started anew.
   /// InputError when the file there has other columns.
-  HistoryWriter(const std::string& path, int dimension, MPI_Comm communicator,
+  HistoryWriter(const std::string& path, int dimension, bool grains, MPI_Comm communicator,
                 std::optional<std::int64_t> restart_step = std::nullopt);
 
   /// Appends one row, and hands it to the operating system at once. A file that was removed in
@@ -71,6 +81,7 @@ class HistoryWriter {
 
   std::string path_;
   int dimension_;
+  bool grains_;
   MPI_Comm communicator_;
   std::unique_ptr<FileDescriptor> file_;  // rank 0 only
   std::uint64_t end_ = 0;

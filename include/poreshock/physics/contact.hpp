@@ -24,6 +24,7 @@ struct NodeGrain {
   double volume = 0.0;                         ///< m^Dim, sum of V_p N
   Vector<Dim> gradient = Vector<Dim>::Zero();  ///< m^(Dim-1), sum of V_p dN/dx_p: points outwards
   Vector<Dim> place = Vector<Dim>::Zero();     ///< m, volume-weighted mean place of its particles
+  double strain = 0.0;                         ///< plastic, volume-weighted mean of its particles
   double heat = 0.0;                           ///< J, set by contact: what the grain takes
 };
 
@@ -61,11 +62,12 @@ struct ContactReport {
   double loss = 0.0;           ///< J >= 0, kinetic energy the impulses took from the end velocities
 };
 
-/// Gap in cells that counts as none: the volume of a node is known no better when grains deform.
-inline constexpr double touching_gap = 0.05;
+/// Gap in cells that counts as none, for two grains of this mean plastic strain: the volume that
+/// particles fill at a node is known the worse the more they are deformed. Pure function.
+double touching_gap(double strain);
 
 /// Gap between two grains at a node, m: from the volume that is missing, either in the node or
-/// between the two fields, whichever is less, without touching_gap; 0 when they touch. Between
+/// between the two fields, whichever is less, less touching_gap; 0 when they touch. Between
 /// curved faces it is the mean over the shape function. Pure function.
 template <int Dim>
 double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,

@@ -2,6 +2,7 @@
 // Contact between the velocity fields of a grid, node by node.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "poreshock/grid/slab_grid.hpp"
@@ -20,9 +21,9 @@ struct ContactField {
 struct ContactSummary {
   std::int64_t nodes = 0;          ///< at which grains pushed each other
   std::int64_t crowded_nodes = 0;  ///< at which more than two grains met
-  double least_gap = 0.0;          ///< m, smallest gap of all nodes that two grains share
-  double penetration = 0.0;        ///< m, largest
-  double residual = 0.0;           ///< largest share of the impulses of a node that did not cancel
+  double least_gap = std::numeric_limits<double>::infinity();  ///< m, of all nodes two grains share
+  double penetration = 0.0;                                    ///< m, largest
+  double residual = 0.0;  ///< largest share of the impulses of a node that did not cancel
 };
 
 /// True at the nodes in [first_row, node_end) where two fields or more have mass; row after row.

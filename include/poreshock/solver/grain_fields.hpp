@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "poreshock/grid/grain_colours.hpp"
+#include "poreshock/output/history.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/physics/grain_contact.hpp"
 
@@ -27,7 +28,7 @@ struct GrainFields {
   std::vector<std::unique_ptr<SlabGrid>> grids;  ///< those of the colours after the first
   std::optional<FaceTable> faces;
   std::vector<bool> shared;  ///< nodes where two grains met in this step
-  ContactSummary summary;    ///< of the last step, this rank
+  ContactSummary summary;    ///< of the last step, this rank; nothing before it
 };
 
 template <int Dim>
@@ -52,6 +53,16 @@ void collide(double dt, Simulation<Dim>& sim);
 /// After the boundaries: settles the heat of contact. Nothing with a single colour. Not collective.
 template <int Dim>
 void finish_contact(Simulation<Dim>& sim);
+
+/// True when the sample has several grains, whether or not they meet.
+template <int Dim>
+bool has_grains(const Simulation<Dim>& sim) {
+  return sim.grain_fields.grains > 0;
+}
+
+/// Contact of the last step over all ranks, for the history. Collective.
+template <int Dim>
+ContactRow contact_row(const Simulation<Dim>& sim);
 
 /// Gives the grids of all fields back, before the slabs change.
 void release_fields(GrainFields& fields);

@@ -29,9 +29,10 @@ struct MotionLane {
 /// Surface of the grain of one velocity field at a node, for contact.
 template <int Dim>
 struct SurfaceLane {
-  static constexpr int volume = 0;       ///< m^Dim, sum of V N
-  static constexpr int gradient = 1;     ///< m^(Dim-1), sum of V dN/dx_p; Dim numbers
-  static constexpr int place = 1 + Dim;  ///< m^(Dim+1), sum of V N (x_p - x_i); Dim numbers
+  static constexpr int volume = 0;            ///< m^Dim, sum of V N
+  static constexpr int gradient = 1;          ///< m^(Dim-1), sum of V dN/dx_p; Dim numbers
+  static constexpr int place = 1 + Dim;       ///< m^(Dim+1), sum of V N (x_p - x_i); Dim numbers
+  static constexpr int strain = 1 + 2 * Dim;  ///< m^Dim, sum of V N times the plastic strain
 };
 
 /// What contact did to the grain of one velocity field at a shared node.
