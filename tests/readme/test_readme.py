@@ -30,7 +30,8 @@ def keys_of_the_program():
 
 def blocks(text, language=""):
     """The fenced blocks of a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)
+    fenced = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S)
+    return [block for name, block in fenced if name == language]
 
 
 def commands():
