@@ -107,10 +107,11 @@ void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm
   });
 }
 
-void sync_records(const std::string& folder, MPI_Comm communicator) {
+void sync_records(const std::string& folder, std::int64_t first, MPI_Comm communicator) {
   on_rank_zero(communicator, [&] {
-    for_each_record(folder,
-                    [](const NumberedFile& file) { FileDescriptor(file.path, O_RDONLY).sync(); });
+    for_each_record(folder, [&](const NumberedFile& file) {
+      if (file.number >= first) FileDescriptor(file.path, O_RDONLY).sync();
+    });
     sync_folder(folder);
   });
 }

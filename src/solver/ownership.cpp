@@ -6,6 +6,7 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/particles/exchange.hpp"
+#include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/shape.hpp"
 
 namespace poreshock {
@@ -13,9 +14,6 @@ namespace poreshock {
 namespace {
 
 constexpr std::int64_t storage_interval = 20;
-
-/// Cost of a particle that only moves, to that of one that is computed.
-constexpr double sleeping_weight = 0.07;
 
 template <int Dim>
 int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shape,

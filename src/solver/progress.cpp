@@ -5,13 +5,12 @@
 #include <cstdio>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {
 
 namespace {
 
-/// What a particle asleep costs beside one awake, as the partition of the rows takes it.
-constexpr double sleeping_weight = 0.07;
 constexpr double seconds_remembered = 10.0;
 
 double seconds(const PhaseTable& phases, std::initializer_list<PhaseName> names) {

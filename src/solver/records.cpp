@@ -162,7 +162,7 @@ void finish_records(const std::string& last_snapshot, MPI_Comm communicator,
   }
   collect_morphology(recorder.folder, communicator);
   collect_profiles(recorder.folder, communicator);
-  sync_records(recorder.folder, communicator);
+  sync_records(recorder.folder, recorder.first_unforced, communicator);
 }
 
 }  // namespace
@@ -190,6 +190,7 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
   recorder.pixels = std::move(pixels);
   recorder.last_checkpoint_step = sim.clock.step;
+  recorder.first_unforced = restarted ? sim.clock.beat : 0;
   return recorder;
 }
 
@@ -246,7 +247,8 @@ std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
                       " before the records that wait: " + recorder.backlog.reason);
   }
   recorder.history->sync();
-  sync_records(recorder.folder, sim.communicator);
+  sync_records(recorder.folder, recorder.first_unforced, sim.communicator);
+  recorder.first_unforced = record_number(sim);
   const std::string path = recorder.folder + "/" + name;
   write_checkpoint(path, sim.scene_text, run_state(sim), sim.particles, sim.communicator);
   recorder.backlog.newest_checkpoint = path;

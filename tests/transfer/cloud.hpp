@@ -186,8 +186,11 @@ std::vector<double> averaged_pressure(const Cloud<Dim>& cloud, const Slab<Dim>& 
                 [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
                   const double own =
                       slab.particles.pressure[p] + slab.particles.viscous_pressure[p];
-                  const Lanes mean = interpolate<Dim, Spline>(stencil, nodes);
-                  result[p] = (1.0 - share) * own + share * mean[AverageLane::pressure];
+                  double mean = 0.0;
+                  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+                    mean += node_weight<Dim, Spline>(stencil, n) * nodes[n][AverageLane::pressure];
+                  }
+                  result[p] = (1.0 - share) * own + share * mean;
                 });
   });
   return result;

@@ -246,7 +246,7 @@ TEST(ElasticDiscs, LoseLittleEnergyAndNoMomentum) {
 // Dense Voronoi grains without friction behind a shock of about 18 GPa: they fill the space, and do
 // not creep into each other where three of them meet.
 TEST(DenseGrains, FillSpaceOnceUnderPressure) {
-  const std::string text = R"(
+  const std::string text = std::string(R"(
 [domain]
 size = [0.15e-3, 0.425e-3]
 cell = 6.25e-6
@@ -260,24 +260,13 @@ height = 0.4e-3
 porosity = 0.03
 grain_radius = 30e-6
 seed = 1
-[[material]]
-name = "aluminium"
-density = 2700
-young = 69e9
-poisson = 0.33
-yield = 120e6
-hardening = 384e6
-c0 = 5350
-lambda = 1.34
-gamma = 2.0
-cv = 880
 [loading]
 velocity = 1100
 [contact]
 friction = 0.0
 [time]
 end = 60e-9
-)";
+)") + aluminium_text;
   Simulation<2> sim = start<2>(scene_of(text, {}), MPI_COMM_SELF);
   advance_to(1000000, 0, sim);
   std::int64_t floored = 0;

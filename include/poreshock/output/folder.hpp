@@ -23,9 +23,9 @@ void prepare_output_folder(const std::string& path, bool force, bool restart,
 /// run is about to write again. Rank 0 works. Collective.
 void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm communicator);
 
-/// Forces the snapshots, morphology and profile files of a folder to disk: what a restart from a
-/// checkpoint written after them builds on. SystemError on all ranks when it fails. Rank 0 works.
-/// Collective.
-void sync_records(const std::string& folder, MPI_Comm communicator);
+/// Forces the snapshots, morphology and profile files of record `first` and later to disk: what a
+/// restart from a checkpoint written after them builds on. SystemError on all ranks when it fails.
+/// Rank 0 works. Collective.
+void sync_records(const std::string& folder, std::int64_t first, MPI_Comm communicator);
 
 }  // namespace poreshock

@@ -22,7 +22,8 @@ struct Recorder {
   std::optional<double> first_total;       ///< J, total energy of the first row of this run
   double last_checkpoint_wall = 0.0;       ///< s
   std::int64_t last_checkpoint_step = -1;
-  Backlog backlog;  ///< what the disk did not take
+  std::int64_t first_unforced = 0;  ///< earlier records were forced to disk with a checkpoint
+  Backlog backlog;                  ///< what the disk did not take
 };
 
 /// The pixel grid of the scene's morphology; none without. Throws InputError when the map has fewer

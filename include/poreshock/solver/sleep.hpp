@@ -5,6 +5,9 @@
 
 namespace poreshock {
 
+/// Cost of a particle that only moves, to that of one that is computed.
+inline constexpr double sleeping_weight = 0.07;
+
 /// The rows of this rank that a wave has reached: those of particles whose velocity differs from
 /// that of the loading by more than 1e-12 of the sound speed, and those next to walls and symmetry
 /// planes. All rows where the scene cannot sleep. A function of scene and state alone. Not

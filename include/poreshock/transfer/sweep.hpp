@@ -198,14 +198,4 @@ void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrd
       particles, cells, grid, awake_rows(cells, grid), visit);
 }
 
-/// Sum of weight times node over a stencil.
-template <int Dim, class Spline>
-inline Lanes interpolate(const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-  Lanes value{};
-  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-    value = fused(node_weight<Dim, Spline>(stencil, n), nodes[n], value);
-  }
-  return value;
-}
-
 }  // namespace poreshock
