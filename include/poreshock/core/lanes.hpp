@@ -4,18 +4,22 @@
 // lane.
 
 #include <cmath>
+#include <utility>
 #ifdef __FMA__
 #include <immintrin.h>
 #endif
 
 namespace poreshock {
 
-/// Eight doubles with element-wise + - * /; may lie at any address of a double.
-typedef double Lanes __attribute__((vector_size(64), aligned(8)));
-/// Four of them.
+/// Four doubles with element-wise + - * /; may lie at any address of a double.
 typedef double HalfLanes __attribute__((vector_size(32), aligned(8)));
 
 inline constexpr int lane_count = 8;
+
+#ifdef __AVX512F__
+
+/// Eight of them.
+typedef double Lanes __attribute__((vector_size(64), aligned(8)));
 
 inline HalfLanes low_half(const Lanes& x) {
   return __builtin_shufflevector(x, x, 0, 1, 2, 3);
@@ -28,6 +32,55 @@ inline HalfLanes high_half(const Lanes& x) {
 inline Lanes join(const HalfLanes& low, const HalfLanes& high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
+
+#else
+
+/// Eight of them where no register is as wide: as one vector they would live in memory only.
+struct Lanes {
+  HalfLanes low, high;
+
+  constexpr Lanes() = default;
+  constexpr Lanes(const HalfLanes& first, const HalfLanes& second) : low(first), high(second) {}
+  /// Lanes that are not given are 0.
+  constexpr Lanes(double x0, double x1, double x2 = 0.0, double x3 = 0.0, double x4 = 0.0,
+                  double x5 = 0.0, double x6 = 0.0, double x7 = 0.0)
+      : low{x0, x1, x2, x3}, high{x4, x5, x6, x7} {}
+
+  double& operator[](int k) { return reinterpret_cast<double*>(this)[k]; }
+  const double& operator[](int k) const { return reinterpret_cast<const double*>(this)[k]; }
+
+  friend constexpr Lanes operator+(const Lanes& a, const Lanes& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend constexpr Lanes operator-(const Lanes& a, const Lanes& b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  friend constexpr Lanes operator*(const Lanes& a, const Lanes& b) {
+    return {a.low * b.low, a.high * b.high};
+  }
+  friend constexpr Lanes operator-(double a, const Lanes& b) { return {a - b.low, a - b.high}; }
+  friend constexpr Lanes operator*(double a, const Lanes& b) { return {a * b.low, a * b.high}; }
+  friend constexpr Lanes operator*(const Lanes& a, double b) { return {a.low * b, a.high * b}; }
+  friend constexpr Lanes operator-(const Lanes& a, double b) { return {a.low - b, a.high - b}; }
+  friend constexpr Lanes operator/(const Lanes& a, double b) { return {a.low / b, a.high / b}; }
+  constexpr Lanes& operator+=(double b) { return *this = Lanes(low + b, high + b); }
+  constexpr Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+  constexpr Lanes& operator*=(double b) { return *this = *this * b; }
+};
+
+inline HalfLanes low_half(const Lanes& x) {
+  return x.low;
+}
+
+inline HalfLanes high_half(const Lanes& x) {
+  return x.high;
+}
+
+inline Lanes join(const HalfLanes& low, const HalfLanes& high) {
+  return {low, high};
+}
+
+#endif
 
 /// a b + c rounded once, lane by lane. The result is the same without the instruction; the compiler
 /// does not find it by itself in every loop.
@@ -55,8 +108,21 @@ inline double sum_of_lanes(const Lanes& x) {
   return (four[0] + four[2]) + (four[1] + four[3]);
 }
 
+/// Turns four vectors of four numbers.
+inline void transpose_halves(HalfLanes& a, HalfLanes& b, HalfLanes& c, HalfLanes& d) {
+  const HalfLanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const HalfLanes odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const HalfLanes even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const HalfLanes odd_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(even_ab, even_cd, 0, 1, 4, 5);
+  b = __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5);
+  c = __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7);
+  d = __builtin_shufflevector(odd_ab, odd_cd, 2, 3, 6, 7);
+}
+
 /// Turns eight vectors of one number each into eight vectors of one node each, and back.
 inline void transpose(Lanes* x) {
+#ifdef __AVX512F__
   Lanes y[lane_count];
   for (int k = 0; k < lane_count; k += 2) {
     y[k] = __builtin_shufflevector(x[k], x[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
@@ -73,6 +139,13 @@ inline void transpose(Lanes* x) {
     x[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 8, 9, 10, 11);
     x[k + 4] = __builtin_shufflevector(low, high, 4, 5, 6, 7, 12, 13, 14, 15);
   }
+#else
+  transpose_halves(x[0].low, x[1].low, x[2].low, x[3].low);
+  transpose_halves(x[4].high, x[5].high, x[6].high, x[7].high);
+  transpose_halves(x[0].high, x[1].high, x[2].high, x[3].high);
+  transpose_halves(x[4].low, x[5].low, x[6].low, x[7].low);
+  for (int k = 0; k < lane_count / 2; ++k) std::swap(x[k].high, x[k + 4].low);
+#endif
 }
 
 }  // namespace poreshock
