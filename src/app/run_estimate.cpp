@@ -46,6 +46,17 @@ double bytes_of_a_particle(const Simulation<Dim>& sim) {
   return static_cast<double>(bytes_per_particle(sim.particles)) + 8.0 * columns + 8.0;
 }
 
+/// Of the maps of one snapshot.
+double bytes_of_maps(const Scene& scene) {
+  if (!(scene.morphology.every > 0.0)) return 0.0;
+  const bool single = scene.output.precision == Precision::single_precision;
+  double bytes = static_cast<double>(scene.morphology.fields.size()) * (single ? 4.0 : 8.0);
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    bytes *= scene.domain.size[axis] / scene.morphology.pixel;
+  }
+  return bytes;
+}
+
 template <int Dim>
 double bytes_of_nodes(const Simulation<Dim>& sim) {
   std::int64_t bytes = 0;
@@ -138,7 +149,8 @@ RunEstimate estimate_run(const Simulation<Dim>& sim) {
                     ? 1.0 + std::ceil(scene.time.end / scene.output.snapshot * (1.0 - 1e-12))
                     : 2.0;
   const SnapshotInput<Dim> input{scene, sim.scene_text, sim.materials, sim.particles};
-  e.snapshot_bytes = particles * static_cast<double>(snapshot_bytes_per_particle(input));
+  e.snapshot_bytes =
+      particles * static_cast<double>(snapshot_bytes_per_particle(input)) + bytes_of_maps(scene);
   e.checkpoint_bytes = particles * static_cast<double>(bytes_per_particle(sim.particles));
   const Checkpoint& when = scene.checkpoint;
   const bool checkpoints = when.every_steps > 0 || when.every_time > 0.0 || when.every_wall > 0.0;

@@ -58,25 +58,38 @@ PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Si
   return map;
 }
 
+bool on_sites(const Scene& scene) {
+  return scene.morphology.lattice == MapLattice::lagrangian;
+}
+
+/// What is added to places on the map, m.
 template <int Dim>
-void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
-  const Phase phase(sim.phases, PhaseName::morphology);
+Vector<Dim> map_shift(const Simulation<Dim>& sim) {
+  return on_sites(sim.scene) ? Vector<Dim>(Vector<Dim>::Zero()) : grid_shift(sim);
+}
+
+/// The map of the fields of the morphology.
+template <int Dim>
+PixelField<Dim> make_map(Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
   const Scene& scene = sim.scene;
   const Particles<Dim>& particles = sim.particles;
-  const std::size_t fields = scene.morphology.fields.size();
-  const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
-  std::vector<std::vector<double>> columns(fields);
-  for (std::size_t f = 0; f < fields; ++f) {
+  std::vector<std::vector<double>> columns(scene.morphology.fields.size());
+  for (std::size_t f = 0; f < columns.size(); ++f) {
     sim.ledger.guards.temperature += derive_field<Dim>(scene.morphology.fields[f].name, particles,
                                                        sim.materials, scene.thermal, columns[f]);
   }
-  const PixelField<Dim> map =
-      sites
-          ? place_on_lattice<Dim>(particles.id, {columns.begin(), columns.end()}, *recorder.pixels)
-          : map_in_space<Dim>(columns, sim, *recorder.pixels);
-  const Vector<Dim> shift = sites ? Vector<Dim>(Vector<Dim>::Zero()) : grid_shift(sim);
+  return on_sites(scene) ? place_on_lattice<Dim>(particles.id, {columns.begin(), columns.end()},
+                                                 *recorder.pixels)
+                         : map_in_space<Dim>(columns, sim, *recorder.pixels);
+}
+
+template <int Dim>
+void write_morphology_record(const PixelField<Dim>& map, Simulation<Dim>& sim,
+                             Recorder<Dim>& recorder) {
+  const Scene& scene = sim.scene;
+  const Vector<Dim> shift = map_shift(sim);
   std::vector<MorphologyRecord> records;
-  for (std::size_t f = 0; f < fields; ++f) {
+  for (std::size_t f = 0; f < scene.morphology.fields.size(); ++f) {
     const MorphologyField& field = scene.morphology.fields[f];
     records.push_back(measure<Dim>(map, f, field, std::string(derived_unit(field.name)),
                                    scene.morphology, shift, sim.communicator));
@@ -131,13 +144,39 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   recorder.last_row = row;
 }
 
+/// The fields of a map as a snapshot takes them.
 template <int Dim>
-void write_snapshot_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+std::vector<SnapshotMap> snapshot_maps(const PixelField<Dim>& map, const PixelGrid<Dim>& pixels,
+                                       const Simulation<Dim>& sim) {
+  SnapshotMap common;
+  for (int axis = Dim - 1; axis >= 0; --axis) {
+    common.shape.push_back(static_cast<std::uint64_t>(map.layout.pixels[axis]));
+  }
+  common.first_row = static_cast<std::uint64_t>(pixels.first_row());
+  common.pixel = map.layout.pixel_size;
+  const Vector<Dim> shift = map_shift(sim);
+  for (int axis = 0; axis < Dim; ++axis) common.low[axis] = shift[axis];
+  std::vector<SnapshotMap> maps;
+  for (std::size_t f = 0; f < map.values.size(); ++f) {
+    SnapshotMap& one = maps.emplace_back(common);
+    one.name = sim.scene.morphology.fields[f].name;
+    one.unit = derived_unit(one.name);
+    // Without the row of the neighbour above.
+    one.values = std::span(map.values[f]).first(map.rows * pixels.row_size());
+  }
+  return maps;
+}
+
+template <int Dim>
+void write_snapshot_record(const std::optional<PixelField<Dim>>& map, Simulation<Dim>& sim,
+                           Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::snapshot);
   const std::string name = snapshot_name(record_number(sim));
+  SnapshotInput<Dim> input = snapshot_input(sim);
+  if (map) input.maps = snapshot_maps(*map, *recorder.pixels, sim);
   const auto write = [&] {
     const std::int64_t floored =
-        write_snapshot<Dim>(recorder.folder + "/" + name, snapshot_input(sim), sim.communicator);
+        write_snapshot<Dim>(recorder.folder + "/" + name, input, sim.communicator);
     if (rank(sim.communicator) == 0) sim.ledger.guards.temperature += floored;
   };
   write_or_leave_out({name, write}, recorder.backlog, sim.communicator);
@@ -200,14 +239,19 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const std::int64_t beat = sim.clock.beat;
   const bool all = last || sim.clock.step == 0;
   catch_up(recorder.backlog, sim.communicator);
+  const bool measures =
+      recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat));
+  const bool shows = all || due(beats_of(output.snapshot, output.beat), beat);
   // All others come before the history: what they floor is counted in its row.
-  if (recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat))) {
-    write_morphology_record(sim, recorder);
+  std::optional<PixelField<Dim>> map;
+  if (recorder.pixels && (measures || shows)) {
+    const Phase phase(sim.phases, PhaseName::morphology);
+    map = make_map(sim, recorder);
+    if (measures) write_morphology_record(*map, sim, recorder);
   }
   const std::int64_t profile = beats_of(sim.scene.profile.every, output.beat);
   if (profile > 0 && (all || due(profile, beat))) write_profile_record(sim, recorder);
-  if (all || due(beats_of(output.snapshot, output.beat), beat))
-    write_snapshot_record(sim, recorder);
+  if (shows) write_snapshot_record(map, sim, recorder);
   const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
   if (all || due(history, beat)) write_history(sim, recorder);
   if (last) finish_records(snapshot_name(record_number(sim)), sim.communicator, recorder);
