@@ -1,8 +1,8 @@
 #include "poreshock/solver/records.hpp"
 
+#include "maps.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/output/folder.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/profile_file.hpp"
@@ -26,61 +26,6 @@ template <int Dim>
 std::int64_t record_number(const Simulation<Dim>& sim) {
   const double landed = static_cast<double>(sim.clock.beat) * sim.scene.output.beat;
   return sim.clock.beat + (sim.clock.time - landed > 1e-9 * sim.scene.output.beat ? 1 : 0);
-}
-
-/// The map of derived columns in space. What was cut or held is counted as a guard.
-template <int Dim>
-PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Simulation<Dim>& sim,
-                             const PixelGrid<Dim>& pixels) {
-  const Scene& scene = sim.scene;
-  const Particles<Dim>& particles = sim.particles;
-  std::vector<PixelValues> values;
-  for (std::size_t f = 0; f < columns.size(); ++f) {
-    double scale = 0.0;
-    for (const double threshold : scene.morphology.fields[f].thresholds) {
-      scale = std::max(scale, std::abs(threshold));
-    }
-    values.push_back({columns[f], scale > 0.0 ? scale : 1.0});
-  }
-  PixelSources<Dim> sources;
-  for (int a = 0; a < Dim; ++a) sources.position[a] = particles.position[a];
-  sources.mass = particles.mass;
-  sources.density = particles.density;
-  PixelScales scales = {0.0, 2.0 * scene.domain.cell};
-  for (const Material& m : sim.materials) {
-    scales.density = std::max(scales.density, initial_density(m));
-  }
-  PixelField<Dim> map = deposit<Dim>(sources, values, scales, pixels);
-  // The counts are those of all ranks.
-  if (rank(sim.communicator) == 0) {
-    sim.ledger.guards.pixel += map.capped + map.clamped + map.skipped;
-  }
-  return map;
-}
-
-bool on_sites(const Scene& scene) {
-  return scene.morphology.lattice == MapLattice::lagrangian;
-}
-
-/// What is added to places on the map, m.
-template <int Dim>
-Vector<Dim> map_shift(const Simulation<Dim>& sim) {
-  return on_sites(sim.scene) ? Vector<Dim>(Vector<Dim>::Zero()) : grid_shift(sim);
-}
-
-/// The map of the fields of the morphology.
-template <int Dim>
-PixelField<Dim> make_map(Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
-  const Scene& scene = sim.scene;
-  const Particles<Dim>& particles = sim.particles;
-  std::vector<std::vector<double>> columns(scene.morphology.fields.size());
-  for (std::size_t f = 0; f < columns.size(); ++f) {
-    sim.ledger.guards.temperature += derive_field<Dim>(scene.morphology.fields[f].name, particles,
-                                                       sim.materials, scene.thermal, columns[f]);
-  }
-  return on_sites(scene) ? place_on_lattice<Dim>(particles.id, {columns.begin(), columns.end()},
-                                                 *recorder.pixels)
-                         : map_in_space<Dim>(columns, sim, *recorder.pixels);
 }
 
 template <int Dim>
@@ -142,29 +87,6 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   write_or_wait({"a row of history.csv", write}, recorder.backlog, sim.communicator);
   if (!recorder.first_total) recorder.first_total = row.total;
   recorder.last_row = row;
-}
-
-/// The fields of a map as a snapshot takes them.
-template <int Dim>
-std::vector<SnapshotMap> snapshot_maps(const PixelField<Dim>& map, const PixelGrid<Dim>& pixels,
-                                       const Simulation<Dim>& sim) {
-  SnapshotMap common;
-  for (int axis = Dim - 1; axis >= 0; --axis) {
-    common.shape.push_back(static_cast<std::uint64_t>(map.layout.pixels[axis]));
-  }
-  common.first_row = static_cast<std::uint64_t>(pixels.first_row());
-  common.pixel = map.layout.pixel_size;
-  const Vector<Dim> shift = map_shift(sim);
-  for (int axis = 0; axis < Dim; ++axis) common.low[axis] = shift[axis];
-  std::vector<SnapshotMap> maps;
-  for (std::size_t f = 0; f < map.values.size(); ++f) {
-    SnapshotMap& one = maps.emplace_back(common);
-    one.name = sim.scene.morphology.fields[f].name;
-    one.unit = derived_unit(one.name);
-    // Without the row of the neighbour above.
-    one.values = std::span(map.values[f]).first(map.rows * pixels.row_size());
-  }
-  return maps;
 }
 
 template <int Dim>
@@ -246,7 +168,7 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   std::optional<PixelField<Dim>> map;
   if (recorder.pixels && (measures || shows)) {
     const Phase phase(sim.phases, PhaseName::morphology);
-    map = make_map(sim, recorder);
+    map = make_map(*recorder.pixels, sim);
     if (measures) write_morphology_record(*map, sim, recorder);
   }
   const std::int64_t profile = beats_of(sim.scene.profile.every, output.beat);
