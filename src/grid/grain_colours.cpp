@@ -13,22 +13,6 @@ namespace poreshock {
 
 namespace {
 
-/// What all ranks have, rank after rank. Collective.
-template <class Item>
-std::vector<Item> gather_all(const std::vector<Item>& mine, MPI_Comm communicator) {
-  const int ranks = size(communicator);
-  const int bytes = static_cast<int>(mine.size() * sizeof(Item));
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts.size(), 0);
-  check_mpi(MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator),
-            "MPI_Allgather of grain counts");
-  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<Item> all(static_cast<std::size_t>(starts.back() + counts.back()) / sizeof(Item));
-  check_mpi(MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(),
-                           MPI_BYTE, communicator),
-            "MPI_Allgatherv of grains");
-  return all;
-}
-
 template <class Item>
 void keep_each_once(std::vector<Item>& items) {
   std::sort(items.begin(), items.end());

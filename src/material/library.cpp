@@ -6,6 +6,12 @@ namespace poreshock {
 
 namespace {
 
+// Where each constant comes from. "1996" is Steinberg, Equation of state and strength properties of
+// selected materials, LLNL UCRL-MA-106439, change 1. Compared with independent transcriptions of
+// the sources; what could not be compared is marked "unchecked": take it from the source named
+// before anything hangs on it. Steinberg's heat capacities, taken as cv, are at constant pressure:
+// 3 to 5 % more. Conductivities are handbook values at room temperature.
+
 MaterialParameters paper_aluminium() {
   MaterialParameters m;
   m.density = 2700.0;
@@ -13,8 +19,8 @@ MaterialParameters paper_aluminium() {
   m.poisson = 0.33;
   m.yield = 120.0e6;
   m.hardening = 384.0e6;
-  m.c0 = 5350.0;
-  m.lambda = 1.34;
+  m.c0 = 5350.0;    // this and the next two: 6061 in Meyers, Dynamic behavior of materials, 1994,
+  m.lambda = 1.34;  // from Marsh, pp. 181-182
   m.gamma = 2.0;
   m.cv = 880.0;
   m.conductivity = 237.0;
@@ -23,10 +29,12 @@ MaterialParameters paper_aluminium() {
 
 MaterialParameters aluminium_6061_t6() {
   MaterialParameters m;
-  m.density = 2703.0;
-  m.young = 73.4e9;  // G0 = 27.6 GPa
-  m.poisson = 0.33;
+  m.density = 2703.0;  // 1996, as all that has no other source
+  m.young = 73.4e9;    // G0 = 27.6 GPa
+  m.poisson = 0.33;    // handbook
   m.yield = 290.0e6;
+  // Lesuer, Kay & LeBlanc 2001, table 1; melting: lower than the 933.6 K of pure aluminium that
+  // others put there, unchecked.
   m.johnson_cook = {324.0e6, 114.0e6, 0.42, 0.002, 1.0, 1.34, 925.0, 294.0};
   m.steinberg_guinan = {290.0e6, 125.0, 0.10, 0.0, 680.0e6, 65.2e-12, 6.16e-4, 300.0};
   m.c0 = 5240.0;
@@ -39,10 +47,11 @@ MaterialParameters aluminium_6061_t6() {
 
 MaterialParameters copper() {
   MaterialParameters m;
-  m.density = 8930.0;
-  m.young = 127.8e9;  // G0 = 47.7 GPa
-  m.poisson = 0.34;
+  m.density = 8930.0;  // 1996, half hard, as all that has no other source
+  m.young = 127.8e9;   // G0 = 47.7 GPa
+  m.poisson = 0.34;    // handbook
   m.yield = 120.0e6;
+  // Johnson & Cook 1983, annealed.
   m.johnson_cook = {90.0e6, 292.0e6, 0.31, 0.025, 1.0, 1.09, 1356.0, 294.0};
   m.steinberg_guinan = {120.0e6, 36.0, 0.45, 0.0, 640.0e6, 28.3e-12, 3.77e-4, 300.0};
   m.c0 = 3940.0;
@@ -55,37 +64,40 @@ MaterialParameters copper() {
 
 MaterialParameters tungsten() {
   MaterialParameters m;
-  m.density = 19300.0;
-  m.young = 409.6e9;  // G0 = 160 GPa
-  m.poisson = 0.28;
-  m.yield = 2.2e9;
+  m.density = 19300.0;  // 1996
+  m.young = 409.6e9;    // G0 = 160 GPa, 1996, unchecked
+  m.poisson = 0.28;     // handbook
+  m.yield = 2.2e9;      // 1996, unchecked
+  // 1996; all but the limit unchecked. The alloy with 3.5 % Ni and 1.5 % Fe has G0 = 145 GPa, 1.87
+  // GPa, 7.7, 0.13, 4.0 GPa, 10.3e-12/Pa and 1.52e-4/K there.
   m.steinberg_guinan = {2.2e9, 24.0, 0.19, 0.0, 4.0e9, 9.38e-12, 1.38e-4, 300.0};
-  m.c0 = 4030.0;
-  m.lambda = 1.237;
+  m.c0 = 4030.0;  // this and the next two: 1996, the same for the alloy; McQueen et al. 1970 have
+  m.lambda = 1.237;  // 4029 m/s, 1.237 and gamma 1.54
   m.gamma = 1.67;
-  m.cv = 129.0;
+  m.cv = 129.0;  // 1996
   m.conductivity = 174.0;
   return m;
 }
 
 MaterialParameters pmma() {
   MaterialParameters m;
-  m.density = 1186.0;
-  m.young = 6.2e9;  // G0 = 2.33 GPa
+  m.density = 1186.0;  // Marsh
+  m.young = 6.2e9;     // G0 = 2.33 GPa, density x (1401 m/s)^2, Marsh, unchecked
   m.poisson = 0.33;
-  m.yield = 420.0e6;
-  m.c0 = 2598.0;
-  m.lambda = 1.516;
-  m.gamma = 0.97;
-  m.cv = 1466.0;
+  m.yield = 420.0e6;  // Barker & Hollenbach, within 10 %, unchecked
+  m.c0 = 2598.0;      // Marsh, unchecked; McQueen et al. 1970 have 2572 m/s and 1.536: the same
+  m.lambda = 1.516;   // shock speeds within 1 % up to 3 km/s
+  m.gamma = 0.97;     // McQueen et al. 1970
+  m.cv = 1466.0;      // they have 1469
   m.conductivity = 0.19;
   return m;
 }
 
 MaterialParameters hmx() {
   MaterialParameters m;
-  m.density = 1900.0;
-  m.young = 28.8e9;  // G0 = 12 GPa
+  m.density = 1900.0;  // this and gamma: Benson & Conley, Modelling Simul. Mater. Sci. Eng. 7
+                       // (1999) 333, who take G0 = 10 GPa and yield = 600 MPa
+  m.young = 28.8e9;    // G0 = 12 GPa, Menikoff, unchecked, as all that follows
   m.poisson = 0.20;
   m.yield = 370.0e6;
   m.c0 = 2650.0;
@@ -108,23 +120,29 @@ const std::vector<LibraryMaterial>& material_library() {
   static const std::vector<LibraryMaterial> library = {
       entry("paper_aluminium", paper_aluminium(),
             "aluminium of \"Temperature pattern dynamics in shocked porous materials\"",
-            "the paper; c0 and lambda are those of 6061 in Marsh, LASL Shock Hugoniot Data, 1980"),
+            "the paper; c0, lambda and gamma are those of 6061: Marsh, LASL Shock Hugoniot Data, "
+            "1980, in Meyers, Dynamic Behavior of Materials, 1994. Checked"),
       entry("aluminium_6061_t6", aluminium_6061_t6(), "aluminium alloy 6061-T6",
-            "elasticity, yield, Us-up and steinberg_guinan: Steinberg, Cochran & Guinan, J. Appl. "
-            "Phys. 51 (1980) 1498, and Steinberg, LLNL UCRL-MA-106439, 1996; johnson_cook: Lesuer, "
-            "Kay & LeBlanc, LLNL UCRL-JC-134118, 2001"),
+            "Steinberg, LLNL UCRL-MA-106439, change 1, 1996 (shear modulus, yield, Us-up, gamma, "
+            "cv, steinberg_guinan); Lesuer, Kay & LeBlanc, LLNL UCRL-JC-134118, 2001 "
+            "(johnson_cook). Checked but for the melting temperature of johnson_cook"),
       entry("copper", copper(), "copper, oxygen-free, high conductivity",
-            "elasticity, yield, Us-up and steinberg_guinan: Steinberg, Cochran & Guinan 1980; "
-            "Us-up also Marsh 1980; johnson_cook: Johnson & Cook, 7th Int. Symp. Ballistics, 1983"),
+            "Steinberg 1996 (shear modulus, yield, Us-up, gamma, cv, steinberg_guinan, half "
+            "hard); Johnson & Cook, 7th Int. Symp. Ballistics, 1983 (johnson_cook, annealed). "
+            "Checked"),
       entry("tungsten", tungsten(), "tungsten",
-            "elasticity, yield, Us-up and steinberg_guinan: Steinberg, Cochran & Guinan 1980 and "
-            "Steinberg 1996; Us-up also Marsh 1980"),
+            "Steinberg 1996. Checked: density, Us-up, gamma, cv and the limit of the flow stress; "
+            "not checked: shear modulus, yield and the rest of steinberg_guinan"),
       entry("pmma", pmma(), "polymethyl methacrylate",
-            "Us-up, gamma and sound speeds: Marsh 1980; yield: from the elastic limit, Barker & "
-            "Hollenbach, J. Appl. Phys. 41 (1970) 4208, within 10 %"),
+            "Marsh 1980 (density, Us-up, sound speeds; not checked, but within 1 % of McQueen et "
+            "al. in Kinslow, High-Velocity Impact Phenomena, 1970); McQueen et al. 1970 (gamma, "
+            "cv; checked); yield from the elastic limit, Barker & Hollenbach, J. Appl. Phys. 41 "
+            "(1970) 4208, within 10 %, not checked"),
       entry("hmx", hmx(), "a solid like the explosive HMX, without reaction",
-            "mesoscale models after Menikoff, J. Appl. Phys. 90 (2001) 1754; published c0 range "
-            "from 2650 to 3070 m/s, lambda from 1.8 to 2.4 and yield from 130 to 370 MPa"),
+            "mesoscale models after Menikoff, J. Appl. Phys. 90 (2001) 1754, not checked; density "
+            "and gamma also Benson & Conley, Modelling Simul. Mater. Sci. Eng. 7 (1999) 333. "
+            "Published c0 range from 2650 to 3070 m/s, lambda from 1.8 to 2.4, shear modulus from "
+            "10 to 12 GPa and yield from 130 to 600 MPa"),
   };
   return library;
 }

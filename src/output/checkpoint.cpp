@@ -48,7 +48,6 @@ FileSpec file_spec(const std::string& scene_text, const RunState& state,
   spec.attributes.push_back({"last_dt", state.last_dt});
   spec.attributes.push_back({"beat", state.beat});
   spec.attributes.push_back({"record", state.record});
-  spec.attributes.push_back({"wall_seconds", state.wall_seconds});
   spec.attributes.push_back({"affine", std::int64_t{particles.options.affine}});
   spec.attributes.push_back({"back_stress", std::int64_t{particles.options.back_stress}});
   spec.attributes.push_back({"conducted_heat", std::int64_t{particles.options.conducted_heat}});
@@ -90,7 +89,6 @@ RunState read_state(Hdf5File& file) {
   state.last_dt = file.number("last_dt");
   state.beat = file.integer("beat");
   state.record = file.integer("record");
-  state.wall_seconds = file.number("wall_seconds");
   state.integers = file.read_all<std::int64_t>(integers_path);
   return state;
 }

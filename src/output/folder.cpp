@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 8> own_names = {
-    "scene.toml",  "history.csv",  "snapshots.xdmf", "morphology.h5",
+constexpr std::array<std::string_view, 9> own_names = {
+    "scene.toml",  "history.csv",  "snapshots.xdmf", "maps.xdmf",  "morphology.h5",
     "profiles.h5", "timings.json", "failed.h5",      "report.html"};
 
 struct SeriesName {

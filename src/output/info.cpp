@@ -101,17 +101,18 @@ std::string describe(const std::string& path) {
   if (is_history(first, 2) || is_history(first, 3)) return describe_history(path, text);
   if (name == "timings.json") return path + ": timings of a run of poreshock\n" + text;
   if (name.ends_with(".toml")) return path + ": scene\n" + text;
-  if (name == "snapshots.xdmf") {
+  if (name == "snapshots.xdmf" || name == "maps.xdmf") {
     std::int64_t count = 0;
     const std::string mark = "<Time ";
     for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
       ++count;
     }
-    return path + ": time series of " + std::to_string(count) + " snapshots, for ParaView\n";
+    return path + ": time series of " + std::to_string(count) + " snapshots" +
+           (name == "maps.xdmf" ? " on pixels" : "") + ", for ParaView\n";
   }
   throw InputError(path +
                    ": not a file of poreshock; known are *.h5, history.csv, timings.json, "
-                   "snapshots.xdmf and *.toml");
+                   "snapshots.xdmf, maps.xdmf and *.toml");
 }
 
 }  // namespace poreshock

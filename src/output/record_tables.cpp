@@ -112,9 +112,9 @@ RecordTables read_tables(const std::string& path, const TableFormat& format, Rec
 template <class T>
 void append_row(const std::vector<T>& from, std::size_t row, std::uint64_t width,
                 std::vector<T>& to) {
+  if (from.empty()) return;
   const auto count = static_cast<std::ptrdiff_t>(std::max<std::uint64_t>(1, width));
   const auto first = from.begin() + static_cast<std::ptrdiff_t>(row) * count;
-  if (from.empty()) return;
   to.insert(to.end(), first, first + count);
 }
 

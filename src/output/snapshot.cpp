@@ -98,6 +98,8 @@ bool wanted(const Scene& scene, std::string_view name) {
          std::find(list.begin(), list.end(), name) != list.end();
 }
 
+const std::string map_folder = "/map/";
+
 /// Rank whose slab a particle was in; how a run was cut is not part of its result.
 constexpr const char* owner_path = "/slabs/owner";
 
@@ -132,6 +134,15 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
         field.unit);
   }
   spec.datasets.push_back({owner_path, NumberType::int32, {rows}, "1", {}});
+  for (const SnapshotMap& map : input.maps) {
+    std::vector<Attribute> place = {{"pixel", map.pixel}};
+    for (int axis = 0; axis < Dim; ++axis) {
+      place.push_back({std::string("low_") + "xyz"[axis], map.low[axis]});
+    }
+    spec.datasets.push_back({map_folder + map.name,
+                             single ? NumberType::float32 : NumberType::float64, map.shape,
+                             map.unit, place});
+  }
   return spec;
 }
 
@@ -153,6 +164,17 @@ void write_field(const Field<Dim>& field, const Source<Dim>& source, std::uint64
 
 std::string snapshot_name(std::int64_t record) {
   return numbered_name("snapshot_", record, 6, ".h5");
+}
+
+template <int Dim>
+std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input) {
+  std::size_t bytes = 0;
+  for (const DatasetSpec& dataset : file_spec(input, 1, 0).datasets) {
+    if (dataset.path.starts_with(map_folder)) continue;
+    const std::uint64_t components = dataset.shape.size() > 1 ? dataset.shape[1] : 1;
+    bytes += components * number_size(dataset.type);
+  }
+  return bytes;
 }
 
 template <int Dim>
@@ -188,10 +210,21 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   }
   const std::vector<std::int32_t> owner(particles.size(), rank(communicator));
   file.write<std::int32_t>(owner_path, rows.first, owner);
+  for (const SnapshotMap& map : input.maps) {
+    const std::string path = map_folder + map.name;
+    if (input.scene.output.precision == Precision::single_precision) {
+      const std::vector<float> values(map.values.begin(), map.values.end());
+      file.write<float>(path, map.first_row, values);
+    } else {
+      file.write<double>(path, map.first_row, map.values);
+    }
+  }
   file.finish();
   return floored;
 }
 
+template std::size_t snapshot_bytes_per_particle<2>(const SnapshotInput<2>&);
+template std::size_t snapshot_bytes_per_particle<3>(const SnapshotInput<3>&);
 template std::int64_t write_snapshot<2>(const std::string&, const SnapshotInput<2>&, MPI_Comm);
 template std::int64_t write_snapshot<3>(const std::string&, const SnapshotInput<3>&, MPI_Comm);
 

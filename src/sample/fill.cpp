@@ -21,8 +21,9 @@ std::int32_t first_grain_owner(const Scene& scene) {
 
 /// Takes the floating pieces of an overlapping sample out, or makes them grains, and counts them.
 void settle_islands(const Scene& scene, const Lattice& lattice, LatticeRange range,
-                    std::vector<std::int32_t>& owners, SampleReport& report) {
-  const IslandPieces islands = find_islands(scene, report.voids);
+                    MPI_Comm communicator, std::vector<std::int32_t>& owners,
+                    SampleReport& report) {
+  const IslandPieces islands = find_islands(scene, report.voids, communicator);
   const bool become_grains = scene.sample.islands == Islands::grains;
   if (become_grains) report.grains = grains_of_islands(scene, lattice, islands);
   std::vector<bool> seen(islands.piece_size.size(), false);
@@ -54,7 +55,7 @@ void settle_islands(const Scene& scene, const Lattice& lattice, LatticeRange ran
 
 std::vector<std::int32_t> find_owners(const Scene& scene, const GrainLayout& layout,
                                       const Lattice& lattice, LatticeRange range,
-                                      SampleReport& report) {
+                                      MPI_Comm communicator, SampleReport& report) {
   std::vector<std::int32_t> owners = sample_owners(scene, report.voids, range);
   give_grains(scene, layout, range, first_grain_owner(scene), owners);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -65,7 +66,7 @@ std::vector<std::int32_t> find_owners(const Scene& scene, const GrainLayout& lay
     give_region(lattice, range, region, owner_none, owners);
   }
   const bool may_float = scene.sample.kind == SampleKind::random_voids && scene.sample.overlap;
-  if (may_float) settle_islands(scene, lattice, range, owners, report);
+  if (may_float) settle_islands(scene, lattice, range, communicator, owners, report);
   return owners;
 }
 
@@ -179,8 +180,14 @@ int first_grain_number(const Scene& scene) {
   return largest + 1;
 }
 
+LatticeRange own_layers(std::int64_t layers, MPI_Comm communicator) {
+  const std::int64_t me = rank(communicator), ranks = size(communicator);
+  return {layers * me / ranks, layers * (me + 1) / ranks};
+}
+
 template <int Dim>
-void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, SampleReport& report) {
+void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particles<Dim>& particles,
+          SampleReport& report) {
   const Lattice lattice = make_lattice(scene);
   range.first = std::clamp(range.first, std::int64_t{0}, lattice.layers());
   range.last = std::clamp(range.last, range.first, lattice.layers());
@@ -199,7 +206,8 @@ void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, Sam
     if (layout.gap > 0.0) report.least_gap = layout.gap;
   }
   require_apart(scene, lattice);
-  const std::vector<std::int32_t> owners = find_owners(scene, layout, lattice, range, report);
+  const std::vector<std::int32_t> owners =
+      find_owners(scene, layout, lattice, range, communicator, report);
   const std::int64_t block_layers =
       std::clamp(lattice.sample_layers - range.first, std::int64_t{0}, range.last - range.first);
   report.lattice_sites = block_layers * lattice.layer_size();
@@ -231,7 +239,7 @@ SampleReport total(const SampleReport& report, MPI_Comm communicator) {
   return result;
 }
 
-template void fill<2>(const Scene&, LatticeRange, Particles<2>&, SampleReport&);
-template void fill<3>(const Scene&, LatticeRange, Particles<3>&, SampleReport&);
+template void fill<2>(const Scene&, LatticeRange, MPI_Comm, Particles<2>&, SampleReport&);
+template void fill<3>(const Scene&, LatticeRange, MPI_Comm, Particles<3>&, SampleReport&);
 
 }  // namespace poreshock

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "poreshock/core/parallel.hpp"
+
 namespace poreshock {
 namespace {
 
@@ -49,6 +51,38 @@ void join_ends(const Runs& runs, std::int64_t row, std::int64_t row_length,
   if (runs.runs[first].begin == 0 && runs.runs[end - 1].end == row_length) {
     join(first, end - 1, parent);
   }
+}
+
+/// Runs of the sample's layers in `range`.
+Runs runs_in(const Scene& scene, const std::vector<Void>& voids, const Lattice& lattice,
+             LatticeRange range) {
+  Runs runs;
+  // A few million sites at a time keep the memory small.
+  const std::int64_t slab =
+      std::max(std::int64_t{1}, (std::int64_t{1} << 22) / lattice.layer_size());
+  for (std::int64_t first = range.first; first < range.last; first += slab) {
+    const LatticeRange some{first, std::min(first + slab, range.last)};
+    std::vector<std::int32_t> owners = sample_owners(scene, voids, some);
+    for (const Region& region : scene.voids) {
+      give_region(lattice, some, region, owner_none, owners);
+    }
+    append_runs(owners, lattice.sites[0], runs);
+  }
+  return runs;
+}
+
+/// Runs of all ranks, one after the other.
+Runs gather_runs(const Runs& mine, MPI_Comm communicator) {
+  std::vector<std::int32_t> counts;
+  for (std::size_t r = 1; r < mine.row_start.size(); ++r) {
+    counts.push_back(static_cast<std::int32_t>(mine.row_start[r] - mine.row_start[r - 1]));
+  }
+  Runs all;
+  all.runs = gather_all(mine.runs, communicator);
+  for (const std::int32_t count : gather_all(counts, communicator)) {
+    all.row_start.push_back(all.row_start.back() + static_cast<std::size_t>(count));
+  }
+  return all;
 }
 
 }  // namespace
@@ -111,20 +145,13 @@ std::vector<Grain> grains_of_islands(const Scene& scene, const Lattice& lattice,
   return grains;
 }
 
-IslandPieces find_islands(const Scene& scene, const std::vector<Void>& voids) {
+IslandPieces find_islands(const Scene& scene, const std::vector<Void>& voids,
+                          MPI_Comm communicator) {
   const Lattice lattice = make_lattice(scene);
   IslandPieces result;
-  // A few million sites at a time keep the memory small.
-  const std::int64_t slab =
-      std::max(std::int64_t{1}, (std::int64_t{1} << 22) / lattice.layer_size());
-  for (std::int64_t first = 0; first < lattice.sample_layers; first += slab) {
-    const LatticeRange range{first, std::min(first + slab, lattice.sample_layers)};
-    std::vector<std::int32_t> owners = sample_owners(scene, voids, range);
-    for (const Region& region : scene.voids) {
-      give_region(lattice, range, region, owner_none, owners);
-    }
-    append_runs(owners, lattice.sites[0], result.runs);
-  }
+  result.runs =
+      gather_runs(runs_in(scene, voids, lattice, own_layers(lattice.sample_layers, communicator)),
+                  communicator);
   result.piece_size = find_pieces(lattice, scene.domain.periodic, result.runs);
   for (std::size_t p = 0; p < result.piece_size.size(); ++p) {
     const bool larger =

@@ -31,7 +31,7 @@ std::vector<std::int64_t> find_pieces(const Lattice& lattice, const std::array<b
                                       Runs& runs);
 
 /// All runs of the sample that float: they belong to a piece that is not the largest one (the first
-/// of the largest on a tie). Works through the whole lattice on every rank.
+/// of the largest on a tie).
 struct IslandPieces {
   Runs runs;                             ///< of all sample layers
   std::vector<std::int64_t> piece_size;  ///< sites
@@ -42,7 +42,9 @@ struct IslandPieces {
 std::vector<Grain> grains_of_islands(const Scene& scene, const Lattice& lattice,
                                      const IslandPieces& islands);
 
-/// Islands of the sample with its generated voids and the scene's explicit voids taken out.
-IslandPieces find_islands(const Scene& scene, const std::vector<Void>& voids);
+/// Islands of the sample with its generated voids and the scene's explicit voids taken out. Each
+/// rank looks at its share of the lattice, all keep the runs of all. Collective.
+IslandPieces find_islands(const Scene& scene, const std::vector<Void>& voids,
+                          MPI_Comm communicator);
 
 }  // namespace poreshock

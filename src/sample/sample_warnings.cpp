@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "lattice.hpp"
@@ -5,6 +6,12 @@
 
 namespace poreshock {
 namespace {
+
+/// "domain.cell to ... or less", the cell times a factor below 1; nothing helps at 0.
+std::string finer(const Scene& scene, double factor) {
+  return factor > 0.0 ? "domain.cell to " + length_text(scene.domain.cell * factor) + " or less"
+                      : "sample.seed anew";
+}
 
 void warn_resolution(const Scene& scene, std::vector<std::string>& warnings) {
   constexpr double least_cells = 16.0;
@@ -51,7 +58,8 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
   if (report.least_gap < 3.0 * spacing) {
     warnings.push_back(thinnest + ", or " + short_number(report.least_gap / spacing) +
                        " particles; below 3 it may break numerically. Set sample.ligament to " +
-                       length_text(3.0 * spacing) + " or more, or domain.cell finer.");
+                       length_text(3.0 * spacing) + " or more, or " +
+                       finer(scene, report.least_gap / (3.0 * spacing)) + ".");
   }
   const auto [reach, shape] = closing_distance(scene.transfer.shape);
   if (report.least_gap < reach * scene.domain.cell) {
@@ -59,7 +67,8 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
                        " cells; below " + short_number(reach) + " cells the " + shape +
                        " shape function joins what lies on its two sides, and gaps close "
                        "numerically before the surfaces meet. Set sample.ligament to " +
-                       length_text(reach * scene.domain.cell) + " or more, or domain.cell finer.");
+                       length_text(reach * scene.domain.cell) + " or more, or " +
+                       finer(scene, report.least_gap / (reach * scene.domain.cell)) + ".");
   }
 }
 
@@ -85,24 +94,28 @@ void warn_grains(const Scene& scene, const SampleReport& report,
                  std::vector<std::string>& warnings) {
   constexpr double least_cells = 8.0;
   std::size_t carriers = 0, coarse = 0;
+  double least_carrier = 1.0, least_coarse = least_cells;
   for (const Grain& grain : report.grains) {
     const double cells = cells_across(scene, grain);
     if (cells < 1.0) {
       ++carriers;
+      least_carrier = std::min(least_carrier, cells);
     } else if (cells < least_cells) {
       ++coarse;
+      least_coarse = std::min(least_coarse, cells);
     }
   }
   const std::string all = " of " + std::to_string(report.grains.size()) + " grains ";
   if (carriers > 0) {
     warnings.push_back(std::to_string(carriers) + all +
                        "are smaller than a cell: they carry momentum, but neither rotation, "
-                       "friction nor their gaps are resolved. Set domain.cell finer, or make the "
-                       "grains larger.");
+                       "friction nor their gaps are resolved. Set " +
+                       finer(scene, least_carrier) + ", or make the grains larger.");
   }
   if (coarse > 0) {
     warnings.push_back(std::to_string(coarse) + all + "are less than " + short_number(least_cells) +
-                       " cells across; their deformation is not resolved. Set domain.cell finer.");
+                       " cells across; their deformation is not resolved. Set " +
+                       finer(scene, least_coarse / least_cells) + ".");
   }
 }
 

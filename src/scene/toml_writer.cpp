@@ -1,5 +1,6 @@
 #include "toml_writer.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace poreshock::scene_text {
@@ -48,6 +49,15 @@ std::string list_text(std::size_t count, Text text) {
   return result + (is_long ? "\n]" : "]");
 }
 
+std::string triple_text(const Triple& value, int count) {
+  return list_text(static_cast<std::size_t>(count),
+                   [&](std::size_t axis) { return number_text(value[axis]); });
+}
+
+bool governs_others(const std::string& key) {
+  return key == "shape" || key == "strength";
+}
+
 std::string side_text(SideKind kind) {
   switch (kind) {
     case SideKind::periodic:
@@ -68,8 +78,26 @@ std::string TomlWriter::path_of(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
-void TomlWriter::add(const std::string& key, const std::string& value, const std::string& comment) {
-  entries_.push_back({key, value, comment});
+void TomlWriter::add(const std::string& key, Words words, const NumberRule& rule) {
+  if (keys_ != nullptr) return list(key, words, rule.about, rule.need);
+  entries_.push_back({key, std::move(words.value), comment_of(rule)});
+}
+
+void TomlWriter::add(const std::string& key, Words words, const Rule& rule) {
+  if (keys_ != nullptr) return list(key, words, rule.about, rule.need);
+  entries_.push_back({key, std::move(words.value), rule.about});
+}
+
+void TomlWriter::list(const std::string& key, const Words& words, const std::string& about,
+                      Need need) {
+  const bool follows = std::exchange(follows_, false);
+  const bool known = std::any_of(keys_->begin(), keys_->end(), [&](const SceneKey& other) {
+    return other.table == path_ && other.key == key;
+  });
+  if (known) return;
+  const std::string standard =
+      need == Need::required ? "required" : (follows ? "" : words.standard);
+  keys_->push_back({path_, repeated_, key, standard, words.allowed, about});
 }
 
 void TomlWriter::add_section(const std::string& path, bool repeated, const std::string& about,
@@ -107,66 +135,79 @@ std::string TomlWriter::document() const {
 }
 
 void TomlWriter::number(const char* key, double value, const NumberRule& rule) {
-  add(key, number_text(value), comment_of(rule));
+  add(key, {number_text(value), plain_number(value), allowed_numbers("a number", rule)}, rule);
 }
 
 void TomlWriter::number(const char* key, const std::optional<double>& value,
                         const NumberRule& rule) {
-  // TOML has no empty value: a key that is not set becomes a comment.
   if (value) return number(key, *value, rule);
-  add(std::string("# ") + key, "", comment_of(rule));
+  // TOML has no empty value: a key that is not set becomes a comment.
+  const std::string name = keys_ != nullptr ? key : std::string("# ") + key;
+  add(name, {"", "", allowed_numbers("a number", rule)}, rule);
 }
 
 void TomlWriter::whole(const char* key, std::int64_t value, const NumberRule& rule) {
-  add(key, std::to_string(value), comment_of(rule));
+  const std::string text = std::to_string(value);
+  add(key, {text, text, allowed_numbers("a whole number", rule)}, rule);
 }
 
 void TomlWriter::flag(const char* key, bool value, const Rule& rule) {
-  add(key, flag_text(value), rule.about);
+  add(key, {flag_text(value), flag_text(value), "true or false"}, rule);
 }
 
 void TomlWriter::text(const char* key, const std::string& value, const Rule& rule) {
-  add(key, quoted(value), rule.about);
+  add(key, {quoted(value), "", "a text"}, rule);
 }
 
-bool TomlWriter::name(const char* key, const std::string& value, const std::vector<std::string>&,
+bool TomlWriter::name(const char* key, std::string& value, const std::vector<std::string>& allowed,
                       const Rule& rule) {
-  add(key, quoted(value), rule.about);
+  add(key,
+      {quoted(value), value.empty() ? "" : quoted(value),
+       allowed.empty() ? "a name" : allowed_names(allowed)},
+      rule);
+  if (keys_ != nullptr && governs_others(key)) {
+    value = allowed[std::min(variant_, allowed.size() - 1)];
+  }
   return true;
 }
 
 void TomlWriter::names(const char* key, const std::vector<std::string>& value,
-                       const std::vector<std::string>&, const Rule& rule) {
-  add(key, list_text(value.size(), [&](std::size_t i) { return quoted(value[i]); }), rule.about);
+                       const std::vector<std::string>& allowed, const Rule& rule) {
+  add(key,
+      {list_text(value.size(), [&](std::size_t i) { return quoted(value[i]); }), "",
+       "an array of names out of " + allowed_names(allowed)},
+      rule);
 }
 
 void TomlWriter::numbers(const char* key, const Triple& value, int count,
                          std::initializer_list<int>, const NumberRule& rule) {
-  vector(key, value, count, rule);
+  add(key, {triple_text(value, count), "", allowed_numbers("an array of 2 or 3 numbers", rule)},
+      rule);
 }
 
 void TomlWriter::vector(const char* key, const Triple& value, int count, const NumberRule& rule) {
-  const auto text = [&](std::size_t i) { return number_text(value[i]); };
-  add(key, list_text(static_cast<std::size_t>(count), text), comment_of(rule));
+  add(key, {triple_text(value, count), "0", allowed_numbers("an array, one number per axis", rule)},
+      rule);
 }
 
 void TomlWriter::points(const char* key, const std::vector<Triple>& value, const NumberRule& rule) {
-  const auto text = [&](std::size_t i) {
-    return list_text(2, [&](std::size_t axis) { return number_text(value[i][axis]); });
-  };
-  add(key, list_text(value.size(), text), comment_of(rule));
+  const auto text = [&](std::size_t i) { return triple_text(value[i], 2); };
+  add(key, {list_text(value.size(), text), "", allowed_numbers("an array of points", rule)}, rule);
 }
 
 void TomlWriter::flags(const char* key, const std::array<bool, 2>& value, int count,
                        const Rule& rule) {
   const auto text = [&](std::size_t i) { return flag_text(value[i]); };
-  add(key, list_text(static_cast<std::size_t>(count), text), rule.about);
+  add(key, {list_text(static_cast<std::size_t>(count), text), "false", "true or false"}, rule);
 }
 
 void TomlWriter::sides(const char* key, const std::array<SideKind, 2>& value,
                        const std::array<bool, 2>&, int count, const Rule& rule) {
   const auto text = [&](std::size_t i) { return side_text(value[i]); };
-  add(key, list_text(static_cast<std::size_t>(count), text), rule.about);
+  add(key,
+      {list_text(static_cast<std::size_t>(count), text), "\"free\"",
+       allowed_names({"free", "wall", "symmetry"})},
+      rule);
 }
 
 void TomlWriter::add_levels(const char* key, std::vector<double> MorphologyField::*levels,
@@ -175,19 +216,24 @@ void TomlWriter::add_levels(const char* key, std::vector<double> MorphologyField
   for (const MorphologyField& field : fields) {
     const std::vector<double>& own = field.*levels;
     if (own.empty()) continue;
-    inner.add(field.name, list_text(own.size(), [&](std::size_t i) { return number_text(own[i]); }),
-              "");
+    inner.entries_.push_back(
+        {field.name, list_text(own.size(), [&](std::size_t i) { return number_text(own[i]); }),
+         ""});
   }
   if (!inner.entries_.empty()) add_section(path_of(key), false, rule.about, inner);
 }
 
 void TomlWriter::thresholds(const char* key, const std::vector<std::string>&,
                             const std::vector<MorphologyField>& value, const Rule& rule) {
+  constexpr const char* allowed =
+      "an array, {from = , to = , step = }, or a table of these by field";
+  if (keys_ != nullptr) return list(key, {"", "", allowed}, rule.about, rule.need);
   add_levels(key, &MorphologyField::thresholds, value, rule);
 }
 
 void TomlWriter::hot_spots(const char* key, const std::vector<MorphologyField>& fields,
                            const Rule& rule) {
+  if (keys_ != nullptr) return list(key, {"", "", "likewise"}, rule.about, rule.need);
   add_levels(key, &MorphologyField::hot_spots, fields, rule);
 }
 

@@ -5,13 +5,10 @@
 #include <cstdio>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {
 
 namespace {
-
-constexpr double seconds_remembered = 10.0;
 
 double seconds(const PhaseTable& phases, std::initializer_list<PhaseName> names) {
   double sum = 0.0;
@@ -41,31 +38,9 @@ std::string duration(double s) {
   return text;
 }
 
-/// Seconds until the end, from the row that took `wall` seconds for `all` particle-steps, `asleep`
-/// of them asleep. A wave that wakes up row after row makes steps dearer: the first row and this
-/// one say how fast.
-double seconds_to_go(const Clock& clock, double end, double wall, double all, double asleep,
-                     Progress& progress) {
-  const double steps = static_cast<double>(clock.step - progress.row_step);
-  const double advanced = clock.time - progress.row_time;
-  if (!(advanced > 0.0) || !(steps > 0.0)) return 0.0;
-  const double work = (all - asleep + sleeping_weight * asleep) / steps;
-  const double middle = progress.row_time + 0.5 * advanced;
-  if (progress.first_work_time < 0.0) {
-    progress.first_work = work;
-    progress.first_work_time = middle;
-  }
-  WorkGrowth growth{work, 0.0, all / steps};
-  if (middle > progress.first_work_time) {
-    growth.slope = (work - progress.first_work) / (middle - progress.first_work_time);
-  }
-  growth.work += growth.slope * 0.5 * advanced;
-  // Single rows swing with records and with what else the machine does.
-  const double cost = wall / (work * advanced);
-  progress.cost = progress.cost > 0.0 ? progress.cost + (cost - progress.cost) *
-                                                            (wall / (wall + seconds_remembered))
-                                      : cost;
-  return progress.cost * work_ahead(growth, end - clock.time);
+double recording(const PhaseTable& phases) {
+  return seconds(phases, {PhaseName::morphology, PhaseName::profile, PhaseName::history,
+                          PhaseName::snapshot, PhaseName::checkpoint});
 }
 
 }  // namespace
@@ -75,45 +50,34 @@ std::string progress_header() {
          "to go";
 }
 
-double work_ahead(const WorkGrowth& growth, double span) {
-  if (growth.slope <= 0.0) return growth.work * span;
-  const double until_all = std::max(growth.most - growth.work, 0.0) / growth.slope;
-  const double growing = std::min(until_all, span);
-  return growth.work * growing + 0.5 * growth.slope * growing * growing +
-         growth.most * (span - growing);
-}
-
 std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
                          const PhaseTable& phases, Progress& progress, MPI_Comm communicator) {
-  const double now = MPI_Wtime();
-  const double wall = now - progress.row_wall;
-  const double busy = compute(phases) - progress.row_compute;
-  // Sum of work, of compute time, of communication and of work asleep, and the largest compute
-  // time.
-  std::array<double, 4> sums = {
-      static_cast<double>(progress.particle_steps - progress.row_particle_steps), busy,
-      communication(phases) - progress.row_communication,
-      static_cast<double>(progress.sleeping_steps - progress.row_sleeping_steps)};
-  double longest = busy;
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, communicator);
+  const double busy = compute(phases);
+  // Of all ranks since the start: work, compute time, communication, work asleep, records.
+  std::array<double, 5> sums = {static_cast<double>(progress.particle_steps), busy,
+                                communication(phases), static_cast<double>(progress.sleeping_steps),
+                                recording(phases)};
+  double longest = busy - progress.row_compute;
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, communicator);
   MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_DOUBLE, MPI_MAX, communicator);
   const double ranks = size(communicator);
-  const double rate = sums[0] / (wall * ranks) * 1e-6;
-  const double share = 100.0 * sums[2] / (wall * ranks);
-  const double imbalance = sums[1] > 0.0 ? longest * ranks / sums[1] : 1.0;
-  const double to_go = seconds_to_go(clock, end, wall, sums[0], sums[3], progress);
+  const RunSoFar& before = progress.to_go.row;
+  const RunSoFar now{clock.time,      clock.step, MPI_Wtime() - progress.start_wall,
+                     sums[4] / ranks, sums[0],    sums[3]};
+  const double wall = now.wall - before.wall;
+  const double rate = (now.particle_steps - before.particle_steps) / (wall * ranks) * 1e-6;
+  const double share = 100.0 * (sums[2] - progress.row_communication) / (wall * ranks);
+  const double all_busy = sums[1] - progress.row_all_compute;
+  const double imbalance = all_busy > 0.0 ? longest * ranks / all_busy : 1.0;
+  const double to_go = seconds_to_go(now, end, progress.to_go);
   char text[160];
   std::snprintf(text, sizeof text, "%8lld %9.3f %9.5f %10.4g %10.4g %9.1e %10.2f %4.0f%% %6.2f %8s",
                 static_cast<long long>(clock.step), clock.time * 1e9, clock.allowed * 1e9,
                 energy.kinetic, energy.internal, energy.drift, rate, share, imbalance,
                 duration(to_go).c_str());
-  progress.row_wall = now;
-  progress.row_particle_steps = progress.particle_steps;
-  progress.row_sleeping_steps = progress.sleeping_steps;
-  progress.row_communication = communication(phases);
-  progress.row_compute = compute(phases);
-  progress.row_time = clock.time;
-  progress.row_step = clock.step;
+  progress.row_communication = sums[2];
+  progress.row_compute = busy;
+  progress.row_all_compute = sums[1];
   return text;
 }
 
@@ -122,7 +86,7 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t
   Timings timings;
   timings.ranks = size(communicator);
   timings.wall_seconds = MPI_Wtime() - progress.start_wall;
-  timings.steps = clock.step - progress.first_step;
+  timings.steps = clock.step - progress.to_go.start.step;
   timings.particle_steps = sum(progress.particle_steps, communicator);
   timings.sleeping_steps = sum(progress.sleeping_steps, communicator);
   timings.rate_per_core = timings.wall_seconds > 0.0 ? static_cast<double>(timings.particle_steps) /

@@ -1,8 +1,8 @@
 #include "poreshock/solver/records.hpp"
 
+#include "maps.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/output/folder.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/profile_file.hpp"
@@ -28,55 +28,13 @@ std::int64_t record_number(const Simulation<Dim>& sim) {
   return sim.clock.beat + (sim.clock.time - landed > 1e-9 * sim.scene.output.beat ? 1 : 0);
 }
 
-/// The map of derived columns in space. What was cut or held is counted as a guard.
 template <int Dim>
-PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Simulation<Dim>& sim,
-                             const PixelGrid<Dim>& pixels) {
+void write_morphology_record(const PixelField<Dim>& map, Simulation<Dim>& sim,
+                             Recorder<Dim>& recorder) {
   const Scene& scene = sim.scene;
-  const Particles<Dim>& particles = sim.particles;
-  std::vector<PixelValues> values;
-  for (std::size_t f = 0; f < columns.size(); ++f) {
-    double scale = 0.0;
-    for (const double threshold : scene.morphology.fields[f].thresholds) {
-      scale = std::max(scale, std::abs(threshold));
-    }
-    values.push_back({columns[f], scale > 0.0 ? scale : 1.0});
-  }
-  PixelSources<Dim> sources;
-  for (int a = 0; a < Dim; ++a) sources.position[a] = particles.position[a];
-  sources.mass = particles.mass;
-  sources.density = particles.density;
-  PixelScales scales = {0.0, 2.0 * scene.domain.cell};
-  for (const Material& m : sim.materials) {
-    scales.density = std::max(scales.density, initial_density(m));
-  }
-  PixelField<Dim> map = deposit<Dim>(sources, values, scales, pixels);
-  // The counts are those of all ranks.
-  if (rank(sim.communicator) == 0) {
-    sim.ledger.guards.pixel += map.capped + map.clamped + map.skipped;
-  }
-  return map;
-}
-
-template <int Dim>
-void write_morphology_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
-  const Phase phase(sim.phases, PhaseName::morphology);
-  const Scene& scene = sim.scene;
-  const Particles<Dim>& particles = sim.particles;
-  const std::size_t fields = scene.morphology.fields.size();
-  const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
-  std::vector<std::vector<double>> columns(fields);
-  for (std::size_t f = 0; f < fields; ++f) {
-    sim.ledger.guards.temperature += derive_field<Dim>(scene.morphology.fields[f].name, particles,
-                                                       sim.materials, scene.thermal, columns[f]);
-  }
-  const PixelField<Dim> map =
-      sites
-          ? place_on_lattice<Dim>(particles.id, {columns.begin(), columns.end()}, *recorder.pixels)
-          : map_in_space<Dim>(columns, sim, *recorder.pixels);
-  const Vector<Dim> shift = sites ? Vector<Dim>(Vector<Dim>::Zero()) : grid_shift(sim);
+  const Vector<Dim> shift = map_shift(sim);
   std::vector<MorphologyRecord> records;
-  for (std::size_t f = 0; f < fields; ++f) {
+  for (std::size_t f = 0; f < scene.morphology.fields.size(); ++f) {
     const MorphologyField& field = scene.morphology.fields[f];
     records.push_back(measure<Dim>(map, f, field, std::string(derived_unit(field.name)),
                                    scene.morphology, shift, sim.communicator));
@@ -132,12 +90,15 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 }
 
 template <int Dim>
-void write_snapshot_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+void write_snapshot_record(const std::optional<PixelField<Dim>>& map, Simulation<Dim>& sim,
+                           Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::snapshot);
   const std::string name = snapshot_name(record_number(sim));
+  SnapshotInput<Dim> input = snapshot_input(sim);
+  if (map) input.maps = snapshot_maps(*map, *recorder.pixels, sim);
   const auto write = [&] {
     const std::int64_t floored =
-        write_snapshot<Dim>(recorder.folder + "/" + name, snapshot_input(sim), sim.communicator);
+        write_snapshot<Dim>(recorder.folder + "/" + name, input, sim.communicator);
     if (rank(sim.communicator) == 0) sim.ledger.guards.temperature += floored;
   };
   write_or_leave_out({name, write}, recorder.backlog, sim.communicator);
@@ -200,14 +161,19 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const std::int64_t beat = sim.clock.beat;
   const bool all = last || sim.clock.step == 0;
   catch_up(recorder.backlog, sim.communicator);
+  const bool measures =
+      recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat));
+  const bool shows = all || due(beats_of(output.snapshot, output.beat), beat);
   // All others come before the history: what they floor is counted in its row.
-  if (recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat))) {
-    write_morphology_record(sim, recorder);
+  std::optional<PixelField<Dim>> map;
+  if (recorder.pixels && (measures || shows)) {
+    const Phase phase(sim.phases, PhaseName::morphology);
+    map = make_map(*recorder.pixels, sim);
+    if (measures) write_morphology_record(*map, sim, recorder);
   }
   const std::int64_t profile = beats_of(sim.scene.profile.every, output.beat);
   if (profile > 0 && (all || due(profile, beat))) write_profile_record(sim, recorder);
-  if (all || due(beats_of(output.snapshot, output.beat), beat))
-    write_snapshot_record(sim, recorder);
+  if (shows) write_snapshot_record(map, sim, recorder);
   const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
   if (all || due(history, beat)) write_history(sim, recorder);
   if (last) finish_records(snapshot_name(record_number(sim)), sim.communicator, recorder);

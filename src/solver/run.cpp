@@ -42,7 +42,8 @@ template <int Dim>
 void show_progress(ProgressRows rows, const Simulation<Dim>& sim, const Recorder<Dim>& recorder,
                    Progress& progress) {
   if (rows == ProgressRows::none) return;
-  const bool waited = MPI_Wtime() - progress.row_wall >= seconds_between_rows;
+  const double wall = MPI_Wtime() - progress.start_wall;
+  const bool waited = wall - progress.to_go.row.wall >= seconds_between_rows;
   int late = (rows == ProgressRows::every_beat ? sim.clock.on_beat : waited) ? 1 : 0;
   check_mpi(MPI_Bcast(&late, 1, MPI_INT, 0, sim.communicator), "MPI_Bcast");
   if (late == 0) return;
@@ -185,9 +186,8 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   }
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, std::move(pixels), sim);
   if (options.continues) recorder.backlog.newest_checkpoint = options.restart;
-  progress.first_step = progress.row_step = sim.clock.step;
-  progress.row_wall = MPI_Wtime();
-  progress.row_time = sim.clock.time;
+  progress.to_go.start = {sim.clock.time, sim.clock.step, MPI_Wtime() - progress.start_wall};
+  progress.to_go.row = progress.to_go.start;
   if (rank(communicator) == 0 && options.rows != ProgressRows::none) {
     std::printf("%s\n", progress_header().c_str());
   }

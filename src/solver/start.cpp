@@ -72,10 +72,9 @@ std::size_t run_state_integers(const Simulation<Dim>& sim) {
 template <int Dim>
 Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim = prepare<Dim>(scene, communicator);
-  const std::int64_t layers = lattice_layers(scene);
-  const std::int64_t me = rank(communicator), ranks = size(communicator);
   SampleReport report;
-  fill<Dim>(scene, {layers * me / ranks, layers * (me + 1) / ranks}, sim.particles, report);
+  fill<Dim>(scene, own_layers(lattice_layers(scene), communicator), communicator, sim.particles,
+            report);
   sim.sample = total(report, communicator);
   find_grains(sim);
   rebalance(0.0, sim);

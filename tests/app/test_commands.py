@@ -64,7 +64,46 @@ class Commands(ProgramTest):
         self.assertRegex(text, r"\nwarning: A void is only 5\S* cells across; below 16 its collapse is not resolved\.")
         self.assertRegex(text, r"\ntypical time step       3\.79e-10 s, about 53 steps\n")
         self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
+        self.assertRegex(text, r"\ndisk                    \d+ MB for 3 snapshots, \d+ MB a checkpoint\n")
         self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 4\.0 million particle-steps")
+
+    def warning(self, *changes):
+        """The warnings of check but the two that this small scene always has."""
+        options = [word for change in changes for word in ("--set", change)]
+        text = self.succeed("check", "porous.toml", *options).output
+        found = re.findall(r"^warning: (.*)$", text, re.M)
+        self.assertRegex(found[0], r"^A void is only 5\S* cells across; .* Set domain\.cell to 3\.125e-06 m or less\.$")
+        self.assertRegex(found[1], r"^The thinnest solid between two voids .* Set sample\.ligament to 3\.5e-05 m or more, "
+                                   r"or domain\.cell to \S+ m or less\.$")
+        return found[2:]
+
+    def test_check_warns_of_what_costs_too_much_and_names_the_keys(self):
+        self.assertEqual(self.warning(), [])
+        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 2\.\d+ days on 1 ranks\. Start it on more, end "
+                         r"it earlier with time\.end, or set domain\.cell to 1\.2\d+e-05 m for one day\.$")
+        # A thousand million snapshots of half a megabyte.
+        self.assertRegex(*self.warning("time.end=1e-3", "output.beat=1e-12", "output.snapshot=1e-12"),
+                         r"^The files of the run need about \S+ GB, 1e\+09 snapshots of \S+ GB among them; this disk has \S+ GB "
+                         r"left\. Raise output\.snapshot, name fewer output\.fields, set output\.precision = \"single\", or "
+                         r"lower checkpoint\.keep\.$")
+        self.assertRegex(self.message(2, "check", "porous.toml", "--set", "domain.cell=2e-8", "--set",
+                                      "sample.particles_per_cell=8"),
+                         r"The run needs about \S+ GB of memory, here are \S+ GB\. Set domain\.cell to \S+ m or more, lower "
+                         r"sample\.particles_per_cell, or start on more machines\.")
+
+    def test_check_warns_of_conduction(self):
+        conductivity = "material.0.conductivity=237"
+        # 2.8 um until 20 ns, in voids of 50 um.
+        self.assertEqual(self.warning(conductivity), [])
+        self.assertRegex(*self.warning(conductivity, "conduction.on=true"),
+                         r"^Heat gets 2\.82e-06 m far in aluminium until the end, 0\.282 cells; below 2 its conduction is not "
+                         r"resolved\. Set domain\.cell to 1\.41e-06 m or less, or conduction\.on = false\.$")
+        self.assertRegex(*self.warning(conductivity, "time.end=400e-9"),
+                         r"^Heat gets 1\.26e-05 m far in aluminium until the end, 0\.253 void diameters, and does not flow: .* Set conduction\.on = "
+                         r"true, or material\.conductivity = 0 where it shall not\.$")
+        self.assertRegex(*self.warning("material.0.conductivity=1e6", "conduction.on=true"),
+                         r"^Heat conduction makes the time step \S+ times smaller than the motion does\. Set domain\.cell to "
+                         r"\S+ m, where the two are equal, or conduction\.on = false\.$")
 
     def test_check_takes_overrides(self):
         text = self.succeed("check", "balls.toml", "--set", "time.end=4e-9", "--set", "title='three balls'").output
@@ -129,7 +168,7 @@ class Commands(ProgramTest):
     def test_info_refuses_what_is_not_ours(self):
         self.write("notes.txt", "nothing of poreshock\n")
         self.refuse("notes.txt: not a file of poreshock; known are *.h5, history.csv, timings.json, "
-                    "snapshots.xdmf and *.toml", "info", "notes.txt", ranks=2)
+                    "snapshots.xdmf, maps.xdmf and *.toml", "info", "notes.txt", ranks=2)
         self.refuse("none.h5: not found", "info", "none.h5")
         self.write("fake.h5", "nothing of HDF5\n")
         self.refuse("fake.h5: not an HDF5 file, or its beginning is damaged", "info", "fake.h5")

@@ -22,7 +22,7 @@ class FinishedRun(ProgramTest):
 
     def test_folder_holds_what_the_scene_asks_for(self):
         newest = [25 * (self.steps // 25 - k) for k in (2, 1, 0)]
-        expected = sorted(["scene.toml", "history.csv", "snapshots.xdmf", "morphology.h5", "profiles.h5",
+        expected = sorted(["scene.toml", "history.csv", "snapshots.xdmf", "maps.xdmf", "morphology.h5", "profiles.h5",
                            "timings.json",
                            *SNAPSHOTS, *(f"checkpoint_{step:09d}.h5" for step in newest)])
         for n in RANKS:
@@ -145,6 +145,23 @@ class FinishedRun(ProgramTest):
                 name, path = item.text.split(":")
                 with h5py.File(self.folder / "on2" / name) as file:
                     self.assertEqual(" ".join(str(n) for n in file[path].shape), item.get("Dimensions"))
+
+    def test_maps_are_those_that_were_measured(self):
+        shots = [datasets(self.folder / f"on{n}/snapshot_000004.h5") for n in RANKS]
+        for field in ("temperature", "pressure"):
+            for other in shots[1:]:
+                self.assertTrue(same_bits(shots[0][f"map/{field}"], other[f"map/{field}"]), field)
+        record = list(datasets(self.folder / "on1/morphology.h5")["temperature/record"]).index(4)
+        measured = datasets(self.folder / "on1/morphology.h5")
+        hot = shots[0]["map/temperature"]
+        for k, threshold in enumerate(measured["temperature/threshold"]):
+            self.assertEqual(int((hot >= threshold).sum()), measured["temperature/F"][record, k])
+        self.assertEqual(int(numpy.isfinite(hot).sum()), measured["temperature/pixels"][record])
+        grid = xml.parse(self.folder / "on1/maps.xdmf").getroot().findall("./Domain/Grid/Grid")[1]
+        self.assertEqual(grid.find("Topology").get("Dimensions"), f"2 {hot.shape[0] + 1} {hot.shape[1] + 1}")
+        self.assertEqual([item.text for item in grid.find("Geometry")], ["-5e-06 0 0", "1e-05 1e-05 1e-05"])
+        self.assertEqual([item.text for item in grid.findall("Attribute/DataItem")],
+                         ["snapshot_000004.h5:/map/pressure", "snapshot_000004.h5:/map/temperature"])
 
     def test_timings_count_the_steps(self):
         for n in RANKS:

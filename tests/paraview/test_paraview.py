@@ -31,10 +31,15 @@ velocity = 1100
 end = 60e-9
 [output]
 snapshot = 20e-9
+[morphology]
+every = 20e-9
+fields = ["temperature"]
+thresholds = [400.0]
 """ + ALUMINIUM
 
 READ = """
 import sys
+import numpy
 from paraview import simple
 from paraview.servermanager import Fetch
 from vtkmodules.numpy_interface import dataset_adapter
@@ -43,10 +48,14 @@ reader.UpdatePipelineInformation()
 print("times", *(round(t * 1e9, 6) for t in reader.TimestepValues))
 reader.UpdatePipeline(reader.TimestepValues[-1])
 data = dataset_adapter.WrapDataObject(Fetch(reader))
-print("points", len(data.Points))
+print("points", data.GetNumberOfPoints())
 for name in sorted(data.PointData.keys()):
     values = data.PointData[name]
     print("field", name, values.shape[1] if len(values.shape) > 1 else 1, float(values.sum()))
+print("bounds", *(round(x * 1e6, 3) for x in Fetch(reader).GetBounds()))
+for name in sorted(data.CellData.keys()):
+    values = numpy.asarray(data.CellData[name])
+    print("cells", name, len(values), float(numpy.nansum(values)), float(numpy.nanmean(values[:30])))
 """
 
 
@@ -81,6 +90,19 @@ class ParaView(ProgramTest):
                 data = file["slabs/owner"] if name == "owner" else particles[name]
                 self.assertEqual(width, data.shape[1] if data.ndim > 1 else 1, name)
                 numpy.testing.assert_allclose(total, data[...].astype(float).sum(), rtol=1e-9, atol=1e-6, err_msg=name)
+
+    def test_maps_lie_where_the_particles_are(self):
+        text = self.pvpython("read.py", "run/maps.xdmf")
+        self.assertIn("times 0.0 20.0 40.0 60.0\n", text)
+        # 30 x 60 cells of 10 um.
+        self.assertIn("bounds 0.0 300.0 0.0 600.0 -5.0 5.0\n", text)
+        name, count, total, lowest = re.search(r"^cells (\S+) (\d+) (\S+) (\S+)$", text, re.M).groups()
+        self.assertEqual((name, int(count)), ("temperature", 1800))
+        with h5py.File(self.folder / "run/snapshot_000012.h5") as file:
+            temperature = file["map/temperature"][...]
+        self.assertEqual(temperature.shape, (60, 30))
+        self.assertAlmostEqual(float(total) / numpy.nansum(temperature), 1.0, places=12)
+        self.assertAlmostEqual(float(lowest) / numpy.nanmean(temperature[0]), 1.0, places=12)
 
     def picture(self, *options):
         text = self.pvpython(ROOT / "tools/paraview_view.py", "run", "--output", "view.png", *options)

@@ -17,9 +17,10 @@ using testing::plane_scene;
 using testing::space_scene;
 
 template <int Dim>
-Particles<Dim> filled(const Scene& scene, LatticeRange range, SampleReport& report) {
+Particles<Dim> filled(const Scene& scene, LatticeRange range, SampleReport& report,
+                      MPI_Comm communicator = MPI_COMM_SELF) {
   Particles<Dim> particles;
-  fill(scene, range, particles, report);
+  fill(scene, range, communicator, particles, report);
   return particles;
 }
 
@@ -152,11 +153,9 @@ TEST(Fill, RanksTogetherMakeTheWholeSample) {
   scene.sample.overlap = true;
   SampleReport whole;
   const Particles<2> all = filled<2>(scene, {0, lattice_layers(scene)}, whole);
-  const std::int64_t layers = lattice_layers(scene);
-  const LatticeRange own{layers * rank(world) / size(world),
-                         layers * (rank(world) + 1) / size(world)};
   SampleReport part;
-  const Particles<2> some = filled<2>(scene, own, part);
+  const Particles<2> some = filled<2>(scene, own_layers(lattice_layers(scene), world), part, world);
+  EXPECT_EQ(gather_all(some.id, world), all.id);
   const SampleReport report = total(part, world);
   EXPECT_EQ(report.particles, static_cast<std::int64_t>(all.size()));
   EXPECT_EQ(report.lattice_sites, whole.lattice_sites);
@@ -327,7 +326,7 @@ TEST(Fill, WithoutApicTheAffineColumnsStayEmpty) {
   Particles<2> particles;
   particles.options.affine = false;
   SampleReport report;
-  fill(scene, {0, lattice_layers(scene)}, particles, report);
+  fill(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   EXPECT_EQ(particles.size(), 40U);
   EXPECT_TRUE(particles.affine[0].empty());
 }

@@ -36,7 +36,8 @@ Filled<Dim> filled(const Scene& scene, int ranges = 1) {
   const std::int64_t layers = lattice_layers(scene);
   for (int r = 0; r < ranges; ++r) {
     Particles<Dim> part;
-    fill<Dim>(scene, {layers * r / ranges, layers * (r + 1) / ranges}, part, all.report);
+    fill<Dim>(scene, {layers * r / ranges, layers * (r + 1) / ranges}, MPI_COMM_SELF, part,
+              all.report);
     std::vector<std::uint32_t> every;
     for (std::size_t p = 0; p < part.size(); ++p) every.push_back(static_cast<std::uint32_t>(p));
     std::vector<std::byte> bytes;
@@ -50,7 +51,7 @@ std::string error_of(const Scene& scene) {
   try {
     Particles<2> particles;
     SampleReport report;
-    fill<2>(scene, {0, lattice_layers(scene)}, particles, report);
+    fill<2>(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -111,7 +111,7 @@ template <int Dim>
 Flooded expect_flood_fill(const Scene& scene) {
   Particles<Dim> particles;
   SampleReport report;
-  fill(scene, {0, lattice_layers(scene)}, particles, report);
+  fill(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   const Flooded expected = flood_fill(scene, report.voids);
   EXPECT_EQ(particles.id, expected.kept);
   EXPECT_EQ(report.islands, expected.islands);
@@ -146,7 +146,7 @@ TEST(Islands, StayWhereVoidsKeepTheirDistance) {
   Scene scene = testing::plane_scene(1e-3, 0.6);
   Particles<2> particles;
   SampleReport report;
-  fill(scene, {0, lattice_layers(scene)}, particles, report);
+  fill(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   EXPECT_EQ(report.islands, 0);
   EXPECT_EQ(report.island_particles, 0);
 }
@@ -163,7 +163,7 @@ TEST(Islands, ExplicitVoidsCutPiecesOffAndBodiesStay) {
   scene.voids = {ditch};
   Particles<2> particles;
   SampleReport report;
-  fill(scene, {0, lattice_layers(scene)}, particles, report);
+  fill(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   EXPECT_EQ(report.islands, 1);
   EXPECT_EQ(report.island_particles, 4000);
   // A body over half of the strip keeps its own particles.
@@ -173,7 +173,7 @@ TEST(Islands, ExplicitVoidsCutPiecesOffAndBodiesStay) {
   body.region.high = {0.5e-3, 1e-3, 0.0};
   body.grain = 1;
   scene.bodies = {body};
-  fill(scene, {0, lattice_layers(scene)}, particles, report);
+  fill(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   EXPECT_EQ(report.island_particles, 2000);
   EXPECT_EQ(std::count(particles.grain.begin(), particles.grain.end(), 1), 2000);
 }

@@ -92,7 +92,8 @@ TEST(SampleWarnings, NameTheKeyAndTheNumber) {
   std::vector<std::string> warnings = sample_warnings(scene, report);
   ASSERT_EQ(warnings.size(), 2U);
   expect_words(warnings[0], {"8 cells across", "16", "domain.cell to 5e-06 m"});
-  expect_words(warnings[1], {"2e-05 m", "2 cells", "below 3.5 cells", "cubic", "3.5e-05 m"});
+  expect_words(warnings[1], {"2e-05 m", "2 cells", "below 3.5 cells", "cubic", "3.5e-05 m",
+                             "domain.cell to 5.714e-06 m"});
 
   report.least_gap = 30e-6;
   scene.transfer.shape = ShapeFunction::quadratic;
@@ -100,7 +101,7 @@ TEST(SampleWarnings, NameTheKeyAndTheNumber) {
   report.least_gap = 10e-6;
   warnings = sample_warnings(scene, report);
   ASSERT_EQ(warnings.size(), 3U);
-  expect_words(warnings[1], {"2 particles", "below 3", "1.5e-05 m"});
+  expect_words(warnings[1], {"2 particles", "below 3", "1.5e-05 m", "domain.cell to 6.667e-06 m"});
   expect_words(warnings[2], {"1 cells", "below 2.5 cells", "quadratic"});
 
   scene = testing::refined(scene);
@@ -112,6 +113,18 @@ TEST(SampleWarnings, NameTheKeyAndTheNumber) {
   warnings = sample_warnings(scene, report);
   ASSERT_EQ(warnings.size(), 1U);
   expect_words(warnings[0], {"10 % of the particles", "0.5", "sample.seed"});
+}
+
+TEST(SampleWarnings, TellOfGrainsOfFewCells) {
+  const Scene scene = plane_scene(1e-3, 0.2);
+  SampleReport report;
+  for (const double cells : {0.5, 4.0, 20.0}) {
+    report.grains.push_back({.measure = std::pow(cells * scene.domain.cell, 2)});
+  }
+  const std::vector<std::string> warnings = sample_warnings(scene, report);
+  ASSERT_EQ(warnings.size(), 2U);
+  expect_words(warnings[0], {"1 of 3 grains", "smaller than a cell", "domain.cell to 5e-06 m"});
+  expect_words(warnings[1], {"1 of 3 grains", "less than 8 cells", "domain.cell to 5e-06 m"});
 }
 
 TEST(SampleWarnings, TellWhenFewVoidsChangeTheRadius) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "poreshock/solver/progress.hpp"
 #include "poreshock/solver/sleep.hpp"
 #include "support/runs.hpp"
 
@@ -95,15 +94,6 @@ TEST(Sleep, MovesABlockInFreeFlightExactly) {
     EXPECT_NEAR(sim.particles.position[1][p],
                 height.at(sim.particles.id[p]) - 1100.0 * sim.clock.time, 1e-15);
   }
-}
-
-// The time to go: the work of a step grows evenly to that of all particles, then stays.
-TEST(TimeToGo, WorkAhead) {
-  EXPECT_DOUBLE_EQ(work_ahead({10.0, 0.0, 50.0}, 3.0), 30.0);
-  EXPECT_DOUBLE_EQ(work_ahead({10.0, 2.0, 50.0}, 3.0), 3.0 * 13.0);
-  EXPECT_DOUBLE_EQ(work_ahead({10.0, 2.0, 50.0}, 30.0), 20.0 * 30.0 + 10.0 * 50.0);
-  EXPECT_DOUBLE_EQ(work_ahead({50.0, 2.0, 50.0}, 4.0), 200.0);
-  EXPECT_DOUBLE_EQ(work_ahead({20.0, -1.0, 50.0}, 4.0), 80.0);
 }
 
 }  // namespace

@@ -30,6 +30,25 @@ inline std::string digits(double x) {
   return text;
 }
 
+/// A solid block of 4 mm on cells of 10 um that falls onto a wall: the keys of its material but
+/// the table's header, impact velocity (m/s) and end (s).
+inline std::string falling_block(const std::string& material, const std::string& velocity,
+                                 const std::string& end) {
+  return R"(
+[domain]
+size = [40e-6, 4.2e-3]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+[sample]
+kind = "solid"
+height = 4e-3
+[loading]
+velocity = )" +
+         velocity + "\n[time]\nend = " + end + "\n[[material]]\n" + material;
+}
+
 inline Plane position(const Simulation<2>& sim, std::size_t p) {
   return {sim.particles.position[0][p], sim.particles.position[1][p]};
 }

@@ -127,14 +127,7 @@ TEST(CopperPiston, ReferenceHasThePublishedNumbers) {
 
 /// Copper that falls onto a wall at 20 m/s.
 std::string copper_scene() {
-  return R"(
-[domain]
-size = [40e-6, 4.2e-3]
-cell = 10e-6
-periodic = true
-[boundary]
-low = "wall"
-[[material]]
+  return falling_block(R"(
 name = "copper"
 density = 8930
 young = 119.7e9
@@ -144,14 +137,8 @@ c0 = 3940
 lambda = 1.49
 gamma = 2.0
 cv = 385
-[sample]
-kind = "solid"
-height = 4e-3
-[loading]
-velocity = 20
-[time]
-end = 350e-9
-)";
+)",
+                       "20", "350e-9");
 }
 
 TEST(CopperPiston, TwoWavesAt20) {

@@ -66,26 +66,9 @@ reference::State exact_state(const MaterialParameters& m) {
 }
 
 std::string plate(const std::string& strength) {
-  return R"(
-[domain]
-size = [40e-6, 4.2e-3]
-cell = 10e-6
-periodic = true
-[boundary]
-low = "wall"
-[[material]]
-name = "copper"
-strength = ")" +
-         strength + "\"\n" + (strength == "johnson_cook" ? "johnson_cook = { rate = 0 }\n" : "") +
-         R"(
-[sample]
-kind = "solid"
-height = 4e-3
-[loading]
-velocity = 1000
-[time]
-end = 600e-9
-)";
+  const char* constant = strength == "johnson_cook" ? "johnson_cook = { rate = 0 }\n" : "";
+  return falling_block("name = \"copper\"\nstrength = \"" + strength + "\"\n" + constant, "1000",
+                       "600e-9");
 }
 
 struct Means {

@@ -10,7 +10,7 @@
 namespace poreshock {
 
 /// Prints the resolved scene, the numbers that follow from it (cells per void, particles, time
-/// step, steps, memory, time to go) and warnings. Makes the sample, runs nothing. Throws
+/// step, steps, memory, disk, time to go) and warnings. Makes the sample, runs nothing. Throws
 /// InputError. Collective.
 void check_scene(const Scene& scene, MPI_Comm communicator);
 

@@ -40,6 +40,21 @@ void sum(std::vector<std::int64_t>& values, MPI_Comm communicator);
 /// Copies rank 0's text to all ranks. Collective.
 void broadcast(std::string& text, MPI_Comm communicator);
 
+/// What all ranks have, rank after rank; at most 2 GB in all. Collective.
+template <class Item>
+std::vector<Item> gather_all(const std::vector<Item>& mine, MPI_Comm communicator) {
+  const int bytes = static_cast<int>(mine.size() * sizeof(Item));
+  std::vector<int> counts(static_cast<std::size_t>(size(communicator))), starts(counts.size(), 0);
+  check_mpi(MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator),
+            "MPI_Allgather");
+  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<Item> all(static_cast<std::size_t>(starts.back() + counts.back()) / sizeof(Item));
+  check_mpi(MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(),
+                           MPI_BYTE, communicator),
+            "MPI_Allgatherv");
+  return all;
+}
+
 /// True when all ranks call this within so many seconds of each other; false on those that waited
 /// in vain, after which the communicator is of no more use to them. Collective over a communicator
 /// that nothing else uses.

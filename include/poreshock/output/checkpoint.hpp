@@ -19,7 +19,6 @@ struct RunState {
   std::int64_t beat = 0;               ///< index of the last beat landed on
   std::int64_t record = 0;             ///< number of the next record
   std::vector<std::int64_t> integers;  ///< accumulators, opaque here
-  double wall_seconds = 0.0;           ///< wall time of the run so far, s
 
   bool operator==(const RunState&) const = default;
 };

@@ -3,7 +3,9 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,17 @@
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
+
+/// A map on pixels (voxels) beside the particles: this rank's rows of it.
+struct SnapshotMap {
+  std::string name;
+  std::string unit;
+  std::vector<std::uint64_t> shape;  ///< of the whole map, rows across the shock axis first
+  std::uint64_t first_row = 0;
+  std::span<const double> values;  ///< NaN where there is no material
+  double pixel = 0.0;              ///< m
+  std::array<double, 3> low{};     ///< m, low corner
+};
 
 /// What a snapshot is made of; everything is referred to, nothing is copied.
 template <int Dim>
@@ -25,15 +38,21 @@ struct SnapshotInput {
   std::int64_t step = 0;
   double time = 0.0;                        ///< s
   Vector<Dim> shift = Vector<Dim>::Zero();  ///< m, added to the positions
+  std::vector<SnapshotMap> maps{};
 };
 
 /// File name of a snapshot in its folder: snapshot_NNNNNN.h5.
 std::string snapshot_name(std::int64_t record);
 
+/// Bytes that one particle takes in a snapshot. Not collective.
+template <int Dim>
+std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input);
+
 /// Writes /particles/... of all ranks into one sealed file, rank after rank in the order the
 /// particles are stored, replacing an older file. Fields as scene.output.fields says (all when
 /// empty), as float32 when the scene asks for single precision (ids, grains and materials stay
-/// integers), and /slabs/owner, the rank of each particle. Returns the number of temperatures, over
+/// integers), /slabs/owner, the rank of each particle, and the maps as /map/... with `pixel` and
+/// `low_x` ... as attributes. Returns the number of temperatures, over
 /// all ranks, that were set to the floor of 1 K. Throws SystemError on all ranks when the disk is
 /// full. Collective.
 template <int Dim>

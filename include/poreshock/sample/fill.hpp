@@ -70,6 +70,9 @@ struct LatticeRange {
   std::int64_t last = 0;
 };
 
+/// This rank's share when all ranks together take `layers` layers. Not collective.
+LatticeRange own_layers(std::int64_t layers, MPI_Comm communicator);
+
 /// Number of lattice layers along the shock axis: cells x particles_per_cell.
 std::int64_t lattice_layers(const Scene& scene);
 
@@ -80,12 +83,13 @@ std::int64_t lattice_layers(const Scene& scene);
 /// empty it. Sets id (lattice
 /// index, x fastest), position, velocity (loading, frame, body, spin), mass, density rho0, grain
 /// and material, the APIC gradient of a body's spin, and all else zero. `report` counts this range:
-/// see total(). Work grows with the sites of the range and the number of voids; only for
-/// overlapping voids, whose floating islands are removed, it grows with all sites of the sample.
-/// Not collective. Throws InputError as place_voids does, when grains cannot be made, and when two
-/// bodies of different grains overlap.
+/// see total(). Work grows with the sites of the range and the number of voids; only overlapping
+/// voids, whose floating islands are removed, need all sites of the sample, which the ranks of
+/// `communicator` share: alone with MPI_COMM_SELF, else collective. Throws InputError as
+/// place_voids does, when grains cannot be made, and when two bodies of different grains overlap.
 template <int Dim>
-void fill(const Scene& scene, LatticeRange range, Particles<Dim>& particles, SampleReport& report);
+void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particles<Dim>& particles,
+          SampleReport& report);
 
 /// The report of the whole sample from the reports of all ranks' ranges. Throws InputError on every
 /// rank when the scene makes no particle at all. Collective.

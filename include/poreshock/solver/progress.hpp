@@ -9,39 +9,21 @@
 #include "poreshock/core/phase.hpp"
 #include "poreshock/output/timings.hpp"
 #include "poreshock/solver/time_step.hpp"
+#include "poreshock/solver/time_to_go.hpp"
 
 namespace poreshock {
 
 /// What the next progress row is computed from.
 struct Progress {
-  double start_wall = 0.0;              ///< s, MPI_Wtime at the start of the run
-  std::int64_t start_memory = 0;        ///< bytes, peak_memory at the start of the run
-  double row_wall = 0.0;                ///< s, at the last row
-  std::int64_t particle_steps = 0;      ///< of this rank since the start
-  std::int64_t sleeping_steps = 0;      ///< those of them in rows asleep
-  std::int64_t row_particle_steps = 0;  ///< at the last row
-  std::int64_t first_step = 0;
-  double row_communication = 0.0;       ///< s, at the last row
-  double row_compute = 0.0;             ///< s, at the last row
-  double row_time = 0.0;                ///< s of simulated time, at the last row
-  std::int64_t row_step = 0;            ///< at the last row
-  std::int64_t row_sleeping_steps = 0;  ///< at the last row
-  double cost = 0.0;        ///< s of wall time per work and simulated time, of the last rows
-  double first_work = 0.0;  ///< work of a step in the first row, in awake particles of all ranks
-  double first_work_time = -1.0;  ///< s of simulated time, in the middle of it; < 0 = none yet
+  double start_wall = 0.0;          ///< s, MPI_Wtime at the start of the run
+  std::int64_t start_memory = 0;    ///< bytes, peak_memory at the start of the run
+  std::int64_t particle_steps = 0;  ///< of this rank since the start
+  std::int64_t sleeping_steps = 0;  ///< those of them in rows asleep
+  TimeToGo to_go;                   ///< with the last row
+  double row_communication = 0.0;   ///< s, of all ranks up to the last row
+  double row_compute = 0.0;         ///< s, of this rank up to the last row
+  double row_all_compute = 0.0;     ///< s, of all ranks up to the last row
 };
-
-/// What the time to go is estimated from. The work of a step is counted in awake particles; asleep
-/// ones count little.
-struct WorkGrowth {
-  double work = 0.0;   ///< of a step now
-  double slope = 0.0;  ///< 1/s, its growth over simulated time
-  double most = 0.0;   ///< of a step where all are awake
-};
-
-/// Integral of the work over `span` (s) of simulated time from now on: it grows evenly until all
-/// are awake.
-double work_ahead(const WorkGrowth& growth, double span);
 
 /// Line with the names of the columns.
 std::string progress_header();

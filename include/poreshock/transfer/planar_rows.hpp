@@ -1,0 +1,167 @@
+#pragma once
+// Rows of nodes whose values of one quantity lie side by side, and the blocks of eight nodes that a
+// stencil is taken in: two neighbouring lines of four nodes along the first axis.
+
+#include <array>
+#include <vector>
+
+#include "poreshock/transfer/sweep.hpp"
+
+namespace poreshock {
+
+/// Pairs of lines of a plane of a stencil, the last one half empty where the width is odd.
+template <class Spline>
+inline constexpr int line_pairs = (Spline::width + 1) / 2;
+
+/// Planes of a stencil: 1 in 2-D.
+template <int Dim, class Spline>
+inline constexpr int stencil_planes = Dim == 2 ? 1 : Spline::width;
+
+template <int Dim, class Spline>
+inline constexpr int stencil_blocks = line_pairs<Spline>* stencil_planes<Dim, Spline>;
+
+/// One number at every node of a stencil; block b holds the lines 2 (b % line_pairs) and the next
+/// of plane b / line_pairs.
+template <int Dim, class Spline>
+using BlockLanes = std::array<Lanes, stencil_blocks<Dim, Spline>>;
+
+/// Lines of nodes of one stencil row: line j of plane k of quantity q starts, for the lateral index
+/// 0, at line(q, j, k).
+template <int Dim, class Spline, int Quantities>
+struct PlanarRows {
+  static constexpr int width = Spline::width;
+  std::array<std::array<double*, width>, Quantities> rows;  ///< node rows of the stencil row
+  std::ptrdiff_t line_size = 0;                             ///< 3-D: nodes of one line
+
+  double* line(int q, int j, int k) const {
+    if constexpr (Dim == 2) {
+      return rows[q][j];
+    } else {
+      return rows[q][k] + j * line_size;
+    }
+  }
+
+  Lanes load(int q, int b, int lateral) const {
+    const int j = 2 * (b % line_pairs<Spline>), k = b / line_pairs<Spline>;
+    const double* low = line(q, j, k) + lateral;
+    // The line that an odd width lacks has no weight; the one before stands in for it.
+    const double* high = j + 1 < width ? line(q, j + 1, k) + lateral : low;
+    return join(*reinterpret_cast<const HalfLanes*>(low),
+                *reinterpret_cast<const HalfLanes*>(high));
+  }
+
+  void add(const Lanes& value, int q, int b, int lateral) const {
+    const int j = 2 * (b % line_pairs<Spline>), k = b / line_pairs<Spline>;
+    *reinterpret_cast<HalfLanes*>(line(q, j, k) + lateral) += low_half(value);
+    if (j + 1 < width) {
+      *reinterpret_cast<HalfLanes*>(line(q, j + 1, k) + lateral) += high_half(value);
+    }
+  }
+};
+
+/// Doubles of one planar node row: a stencil may reach beyond its end with lanes of no weight.
+inline std::ptrdiff_t planar_pitch(const GridShape& shape) {
+  return (shape.row_size + 2 * lane_count - 1) / lane_count * lane_count;
+}
+
+/// Planar copies of the node rows that a stencil row sees, of chosen lanes of the nodes.
+template <int Dim, class Spline, int Quantities>
+class PlanarWindow {
+ public:
+  /// lanes: which lane of a node becomes which quantity.
+  PlanarWindow(const SlabGrid& grid, const std::array<int, Quantities>& lanes)
+      : grid_(grid),
+        lanes_(lanes),
+        pitch_(planar_pitch(grid.shape())),
+        values_(static_cast<std::size_t>(Spline::width * Quantities * pitch_), 0.0),
+        next_(grid.first_row()) {}
+
+  /// Lines for a stencil row; rows come in ascending order.
+  PlanarRows<Dim, Spline, Quantities> at(int row) {
+    next_ = std::max(next_, row);
+    for (; next_ < row + Spline::width; ++next_) copy(next_);
+    PlanarRows<Dim, Spline, Quantities> result;
+    result.line_size = grid_.shape().nodes[0];
+    for (int q = 0; q < Quantities; ++q) {
+      for (int k = 0; k < Spline::width; ++k) result.rows[q][k] = target(q, row + k);
+    }
+    return result;
+  }
+
+ private:
+  double* target(int q, int row) {
+    return values_.data() + ((row % Spline::width) * Quantities + q) * pitch_;
+  }
+
+  void copy(int row) {
+    const Lanes* nodes = grid_.row(row);
+    const int count = grid_.shape().row_size;
+    double* targets[Quantities];
+    for (int q = 0; q < Quantities; ++q) targets[q] = target(q, row);
+    int i = 0;
+    for (; i + lane_count <= count; i += lane_count) {
+      Lanes block[lane_count];
+      for (int k = 0; k < lane_count; ++k) block[k] = nodes[i + k];
+      transpose(block);
+      for (int q = 0; q < Quantities; ++q) {
+        *reinterpret_cast<Lanes*>(targets[q] + i) = block[lanes_[q]];
+      }
+    }
+    for (; i < count; ++i) {
+      for (int q = 0; q < Quantities; ++q) targets[q][i] = nodes[i][lanes_[q]];
+    }
+  }
+
+  const SlabGrid& grid_;
+  std::array<int, Quantities> lanes_;
+  std::ptrdiff_t pitch_;
+  std::vector<double> values_;
+  int next_;
+};
+
+/// Row buffer of planar sums; quantity q becomes lane q of the nodes.
+template <int Dim, class Spline, int Quantities>
+class PlanarBuffer {
+ public:
+  explicit PlanarBuffer(const GridShape& shape)
+      : row_size_(shape.row_size),
+        pitch_(planar_pitch(shape)),
+        values_(static_cast<std::size_t>(Spline::width * Quantities * pitch_), 0.0),
+        nodes_(static_cast<std::size_t>(Spline::width * row_size_ + lane_count)) {
+    rows.line_size = shape.nodes[0];
+    for (int q = 0; q < Quantities; ++q) {
+      for (int k = 0; k < Spline::width; ++k) {
+        rows.rows[q][k] = values_.data() + (q * Spline::width + k) * pitch_;
+      }
+    }
+  }
+  PlanarBuffer(const PlanarBuffer&) = delete;
+  PlanarBuffer& operator=(const PlanarBuffer&) = delete;
+
+  /// Adds the sums to the grid as those of one row and clears them.
+  void flush(int row, SlabGrid& grid) {
+    for (int k = 0; k < Spline::width; ++k) {
+      Lanes* target = nodes_.data() + k * row_size_;
+      // The last block may write beyond the row, where the next row comes afterwards.
+      for (std::ptrdiff_t i = 0; i < row_size_; i += lane_count) {
+        Lanes block[lane_count] = {};
+        for (int q = 0; q < Quantities; ++q) {
+          block[q] = *reinterpret_cast<const Lanes*>(rows.rows[q][k] + i);
+        }
+        transpose(block);
+        for (int n = 0; n < lane_count; ++n) target[i + n] = block[n];
+      }
+    }
+    grid.add_row(row, nodes_.data());
+    std::fill(values_.begin(), values_.end(), 0.0);
+  }
+
+  PlanarRows<Dim, Spline, Quantities> rows;
+
+ private:
+  std::ptrdiff_t row_size_, pitch_;
+  std::vector<double> values_;
+  std::vector<Lanes> nodes_;
+};
+
+}  // namespace poreshock

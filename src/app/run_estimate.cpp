@@ -1,0 +1,210 @@
+#include "run_estimate.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/output/snapshot.hpp"
+
+namespace poreshock {
+
+namespace {
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string gigabytes(double bytes) {
+  return short_number(bytes * 1e-9) + " GB";
+}
+
+/// Typical step of the motion: the shocked sound speed is about 1.2 times the initial one.
+double mechanical_step(const Scene& scene) {
+  double speed = 0.0;
+  for (const MaterialParameters& m : scene.materials) {
+    speed = std::max(speed, longitudinal_sound_speed(make_material(m)));
+  }
+  return scene.time.cfl * scene.domain.cell / (1.2 * speed + scene.loading.velocity);
+}
+
+/// State, averaged pressure, sort order, cell number and one column in flight while particles are
+/// reordered, bytes per particle; what is kept for chunks of rows alone does not grow with them.
+template <int Dim>
+double bytes_of_a_particle(const Simulation<Dim>& sim) {
+  const Transfer& transfer = sim.scene.transfer;
+  double columns = 1.0;
+  if (transfer.averaging > 0.0) columns += 1.0;
+  if (transfer.velocity == VelocityTransfer::fmpm) columns += Dim + 1.0;
+  if (sim.heat) columns += Dim + 1.0;
+  return static_cast<double>(bytes_per_particle(sim.particles)) + 8.0 * columns + 8.0;
+}
+
+/// Of the maps of one snapshot.
+double bytes_of_maps(const Scene& scene) {
+  if (!(scene.morphology.every > 0.0)) return 0.0;
+  const bool single = scene.output.precision == Precision::single_precision;
+  double bytes = static_cast<double>(scene.morphology.fields.size()) * (single ? 4.0 : 8.0);
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    bytes *= scene.domain.size[axis] / scene.morphology.pixel;
+  }
+  return bytes;
+}
+
+template <int Dim>
+double bytes_of_nodes(const Simulation<Dim>& sim) {
+  std::int64_t bytes = 0;
+  for (const SlabGrid* grid : {sim.grid.get(), sim.averages.get(), sim.heat.get()}) {
+    if (grid != nullptr) bytes += static_cast<std::int64_t>(grid->bytes());
+  }
+  return static_cast<double>(sum(bytes, sim.communicator));
+}
+
+std::string memory_sentence(const Scene& scene, double bytes, const Resources& resources) {
+  const double coarser = std::pow(bytes / resources.memory, 1.0 / scene.dimension);
+  return "The run needs about " + gigabytes(bytes) + " of memory, here are " +
+         gigabytes(resources.memory) + ". Set domain.cell to " +
+         short_number(scene.domain.cell * coarser) +
+         " m or more, lower sample.particles_per_cell, or start on more machines.";
+}
+
+void warn_conduction(const Scene& scene, const RunEstimate& estimate,
+                     std::vector<std::string>& warnings) {
+  constexpr double least_cells = 2.0, least_diameters = 0.2;
+  const bool has_voids = scene.sample.kind == SampleKind::random_voids;
+  for (const MaterialParameters& m : scene.materials) {
+    const double length = diffusion_length(scene, m);
+    if (!(length > 0.0)) continue;
+    const std::string heat =
+        "Heat gets " + short_number(length) + " m far in " + m.name + " until the end, ";
+    const double cells = length / scene.domain.cell;
+    const double diameters = length / (2.0 * scene.sample.void_radius);
+    if (scene.conduction.on && cells < least_cells) {
+      warnings.push_back(heat + short_number(cells) +
+                         " cells; below 2 its conduction is not resolved. Set domain.cell to " +
+                         short_number(length / least_cells) +
+                         " m or less, or conduction.on = false.");
+    }
+    if (!scene.conduction.on && has_voids && diameters > least_diameters) {
+      warnings.push_back(
+          heat + short_number(diameters) +
+          " void diameters, and does not flow: hot spots of that size stay too hot. "
+          "Set conduction.on = true, or material.conductivity = 0 where it shall not.");
+    }
+  }
+  const double times_smaller = estimate.mechanical_step / estimate.conduction_step;
+  if (times_smaller > 2.0) {
+    warnings.push_back("Heat conduction makes the time step " + short_number(times_smaller) +
+                       " times smaller than the motion does. Set domain.cell to " +
+                       short_number(scene.domain.cell * times_smaller) +
+                       " m, where the two are equal, or conduction.on = false.");
+  }
+}
+
+}  // namespace
+
+void require_memory(const Scene& scene, const Resources& resources) {
+  // Of a particle, without what only some schemes keep.
+  const double bytes = scene.dimension == 2 ? 200.0 : 300.0;
+  const int shock = scene.dimension - 1;
+  double cells = scene.sample.kind == SampleKind::none ? 0.0 : scene.sample.height;
+  for (int axis = 0; axis < shock; ++axis) cells *= scene.domain.size[axis];
+  cells /= std::pow(scene.domain.cell, scene.dimension);
+  const double particles = cells * (1.0 - scene.sample.porosity) *
+                           std::pow(scene.sample.particles_per_cell, scene.dimension);
+  if (particles * bytes > resources.memory) {
+    throw InputError(memory_sentence(scene, particles * bytes, resources));
+  }
+}
+
+double assumed_rate(int dimension) {
+  return dimension == 2 ? 4.0e6 : 1.0e6;
+}
+
+double diffusion_length(const Scene& scene, const MaterialParameters& material) {
+  const double diffusivity = material.conductivity / (material.density * material.cv);
+  return std::sqrt(4.0 * diffusivity * scene.time.end);
+}
+
+template <int Dim>
+RunEstimate estimate_run(const Simulation<Dim>& sim) {
+  const Scene& scene = sim.scene;
+  const auto particles = static_cast<double>(sim.sample.particles);
+  RunEstimate e;
+  e.mechanical_step = mechanical_step(scene);
+  e.conduction_step = sim.conduction_limit;
+  e.steps = std::ceil(scene.time.end / std::min(e.mechanical_step, e.conduction_step));
+  if (scene.time.max_steps > 0) {
+    e.steps = std::min(e.steps, static_cast<double>(scene.time.max_steps));
+  }
+  e.particle_bytes = bytes_of_a_particle(sim);
+  e.memory = particles * e.particle_bytes + bytes_of_nodes(sim);
+  e.snapshots = scene.output.snapshot > 0.0
+                    ? 1.0 + std::ceil(scene.time.end / scene.output.snapshot * (1.0 - 1e-12))
+                    : 2.0;
+  const SnapshotInput<Dim> input{scene, sim.scene_text, sim.materials, sim.particles};
+  e.snapshot_bytes =
+      particles * static_cast<double>(snapshot_bytes_per_particle(input)) + bytes_of_maps(scene);
+  e.checkpoint_bytes = particles * static_cast<double>(bytes_per_particle(sim.particles));
+  const Checkpoint& when = scene.checkpoint;
+  const bool checkpoints = when.every_steps > 0 || when.every_time > 0.0 || when.every_wall > 0.0;
+  // The new one is whole before the oldest goes.
+  e.disk = e.snapshots * e.snapshot_bytes +
+           (checkpoints ? (static_cast<double>(when.keep) + 1.0) * e.checkpoint_bytes : 0.0);
+  e.seconds = particles * e.steps / (assumed_rate(Dim) * size(sim.communicator));
+  return e;
+}
+
+Resources find_resources(MPI_Comm communicator) {
+  MPI_Comm machine = MPI_COMM_NULL;
+  check_mpi(MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine),
+            "MPI_Comm_split_type");
+  std::int64_t memory = 0;
+  if (rank(machine) == 0) {
+    memory = std::int64_t{sysconf(_SC_PHYS_PAGES)} * std::int64_t{sysconf(_SC_PAGESIZE)};
+  }
+  MPI_Comm_free(&machine);
+  std::error_code error;
+  const auto space = std::filesystem::space(".", error);
+  return {static_cast<double>(sum(memory, communicator)),
+          error ? INFINITY : static_cast<double>(space.available), size(communicator)};
+}
+
+std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& estimate,
+                                      const Resources& resources) {
+  constexpr double day = 86400.0;
+  std::vector<std::string> warnings;
+  warn_conduction(scene, estimate, warnings);
+  if (estimate.memory > resources.memory) {
+    warnings.push_back(memory_sentence(scene, estimate.memory, resources));
+  }
+  if (estimate.disk > resources.disk) {
+    warnings.push_back("The files of the run need about " + gigabytes(estimate.disk) + ", " +
+                       short_number(estimate.snapshots) + " snapshots of " +
+                       gigabytes(estimate.snapshot_bytes) + " among them; this disk has " +
+                       gigabytes(resources.disk) +
+                       " left. Raise output.snapshot, name fewer output.fields, set "
+                       "output.precision = \"single\", or lower checkpoint.keep.");
+  }
+  if (estimate.seconds > day) {
+    // In 2-D work goes with the third power of the cell, in 3-D with the fourth.
+    const double coarser = std::pow(estimate.seconds / day, 1.0 / (scene.dimension + 1));
+    warnings.push_back("The run takes about " + short_number(estimate.seconds / day) + " days on " +
+                       std::to_string(resources.ranks) +
+                       " ranks. Start it on more, end it earlier with time.end, or set domain.cell "
+                       "to " +
+                       short_number(scene.domain.cell * coarser) + " m for one day.");
+  }
+  return warnings;
+}
+
+template RunEstimate estimate_run<2>(const Simulation<2>&);
+template RunEstimate estimate_run<3>(const Simulation<3>&);
+
+}  // namespace poreshock

@@ -1,0 +1,26 @@
+#pragma once
+// The maps that a run measures and keeps in its snapshots.
+
+#include <vector>
+
+#include "poreshock/morphology/pixel_map.hpp"
+#include "poreshock/output/snapshot.hpp"
+#include "poreshock/solver/simulation.hpp"
+
+namespace poreshock {
+
+/// What is added to places on the map, m. Not collective.
+template <int Dim>
+Vector<Dim> map_shift(const Simulation<Dim>& sim);
+
+/// The map of the fields of the scene's morphology; what was cut, held or floored for it is counted
+/// as a guard. Collective.
+template <int Dim>
+PixelField<Dim> make_map(const PixelGrid<Dim>& pixels, Simulation<Dim>& sim);
+
+/// The fields of a map as a snapshot takes them; valid as long as `map` lives. Not collective.
+template <int Dim>
+std::vector<SnapshotMap> snapshot_maps(const PixelField<Dim>& map, const PixelGrid<Dim>& pixels,
+                                       const Simulation<Dim>& sim);
+
+}  // namespace poreshock
