@@ -2,7 +2,13 @@
 
 #include <sys/resource.h>
 
+#include <fstream>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <petsclog.h>
+#include <unistd.h>
 
 #include "poreshock/core/parallel.hpp"
 
@@ -21,6 +27,19 @@ std::int64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+std::int64_t resident_memory() {
+  std::ifstream file("/proc/self/statm");
+  std::int64_t size = 0, resident = 0;
+  file >> size >> resident;
+  return file ? resident * sysconf(_SC_PAGESIZE) : 0;
+}
+
+void release_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 PhaseTable make_phase_table() {

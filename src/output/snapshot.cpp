@@ -211,12 +211,12 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   const std::vector<std::int32_t> owner(particles.size(), rank(communicator));
   file.write<std::int32_t>(owner_path, rows.first, owner);
   for (const SnapshotMap& map : input.maps) {
-    const std::string path = map_folder + map.name;
+    const std::string dataset = map_folder + map.name;
     if (input.scene.output.precision == Precision::single_precision) {
       const std::vector<float> values(map.values.begin(), map.values.end());
-      file.write<float>(path, map.first_row, values);
+      file.write<float>(dataset, map.first_row, values);
     } else {
-      file.write<double>(path, map.first_row, map.values);
+      file.write<double>(dataset, map.first_row, map.values);
     }
   }
   file.finish();

@@ -60,6 +60,7 @@ void write_timings(const std::string& path, const Timings& timings, MPI_Comm com
                        ",\n  \"particle_steps\": " + std::to_string(timings.particle_steps) +
                        ",\n  \"sleeping_steps\": " + std::to_string(timings.sleeping_steps) +
                        ",\n  \"bytes_per_particle\": " + json(timings.bytes_per_particle) +
+                       ",\n  \"bytes_per_particle_at_once\": " + json(timings.bytes_at_once) +
                        ",\n  \"rate_per_core\": " + json(timings.rate_per_core) +
                        ",\n  \"phases\": [";
     for (std::size_t i = 0; i < timings.phases.size(); ++i) {

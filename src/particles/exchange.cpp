@@ -119,9 +119,11 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
   check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
             "MPI_Waitall for particles");
   MPI_Type_free(&unit);
+  buffers.clear();
   remove(std::move(holes), particles);
   for (int r = 0; r < ranks; ++r) {
     unpack(arrived[r].data(), static_cast<std::size_t>(received[r]), particles);
+    std::vector<std::byte>().swap(arrived[r]);
   }
 }
 

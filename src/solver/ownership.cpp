@@ -142,6 +142,8 @@ void rebalance(double least_gain, Simulation<Dim>& sim) {
     destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, shape, inverse_cell));
   }
   redistribute(destination, sim.particles, sim.communicator);
+  release_spare(sim.particles);
+  release_freed_memory();
 }
 
 template void sort_particles<2>(Simulation<2>&);

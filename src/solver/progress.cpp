@@ -81,6 +81,11 @@ std::string progress_row(const Clock& clock, double end, const EnergyStatus& ene
   return text;
 }
 
+void note_memory(MPI_Comm communicator, Progress& progress) {
+  const std::int64_t now = sum(resident_memory() - progress.start_resident, communicator);
+  progress.most_resident = std::max(progress.most_resident, now);
+}
+
 Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t particles,
                       const Progress& progress, MPI_Comm communicator) {
   Timings timings;
@@ -94,8 +99,9 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t
                                                      : 0.0;
   const std::int64_t memory = sum(peak_memory() - progress.start_memory, communicator);
   const std::int64_t all = sum(particles, communicator);
-  timings.bytes_per_particle =
-      all > 0 ? static_cast<double>(memory) / static_cast<double>(all) : 0.0;
+  const double per_particle = all > 0 ? 1.0 / static_cast<double>(all) : 0.0;
+  timings.bytes_per_particle = static_cast<double>(memory) * per_particle;
+  timings.bytes_at_once = static_cast<double>(progress.most_resident) * per_particle;
   timings.phases = gather_phases(phases, communicator);
   return timings;
 }
@@ -121,8 +127,10 @@ std::string timings_table(const Timings& timings) {
                       static_cast<double>(timings.particle_steps));
     table += line;
   }
-  std::snprintf(line, sizeof line, "at most %.0f bytes per particle beyond the empty program\n",
-                timings.bytes_per_particle);
+  std::snprintf(line, sizeof line,
+                "at most %.0f bytes per particle beyond the empty program at one time; the sum of "
+                "each rank's most is %.0f\n",
+                timings.bytes_at_once, timings.bytes_per_particle);
   return table + line;
 }
 

@@ -82,7 +82,9 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   // no row to go to.
   const bool stop_asked = synchronise(options, progress, sim);
   migrate(sim);
-  if (sim.clock.step % rebalance_interval == 0) rebalance(least_rebalance_gain, sim);
+  const bool may_rebalance = sim.clock.step % rebalance_interval == 0;
+  if (may_rebalance) rebalance(least_rebalance_gain, sim);
+  if (may_rebalance || sim.clock.on_beat) note_memory(sim.communicator, progress);
   return stop_asked;
 }
 
@@ -167,6 +169,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   Progress progress;
   progress.start_wall = MPI_Wtime();
   progress.start_memory = peak_memory();
+  progress.start_resident = resident_memory();
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);

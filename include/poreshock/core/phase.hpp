@@ -47,6 +47,13 @@ struct PhaseTable {
 /// Largest memory this process has held so far, bytes. Not collective.
 std::int64_t peak_memory();
 
+/// Memory this process holds now, bytes; 0 where the system does not say. Not collective.
+std::int64_t resident_memory();
+
+/// Gives freed memory back to the system, where the library can: freed particles of a rebalance
+/// would else stay with the rank that sent them away. Not collective.
+void release_freed_memory();
+
 /// Makes a table and registers its PETSc log events. Collective.
 PhaseTable make_phase_table();
 
