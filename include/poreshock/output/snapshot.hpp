@@ -14,7 +14,7 @@
 
 namespace poreshock {
 
-/// What a snapshot is made of; everything is referred to, nothing is copied.
+/// What a snapshot is made of; all but the colours is referred to.
 template <int Dim>
 struct SnapshotInput {
   const Scene& scene;
@@ -25,6 +25,7 @@ struct SnapshotInput {
   std::int64_t step = 0;
   double time = 0.0;                        ///< s
   Vector<Dim> shift = Vector<Dim>::Zero();  ///< m, added to the positions
+  std::vector<std::int32_t> colour = {};    ///< velocity field of each particle; empty: not written
 };
 
 /// File name of a snapshot in its folder: snapshot_NNNNNN.h5.
