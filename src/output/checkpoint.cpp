@@ -52,6 +52,7 @@ FileSpec file_spec(const std::string& scene_text, const RunState& state,
   spec.attributes.push_back({"back_stress", std::int64_t{particles.options.back_stress}});
   spec.attributes.push_back({"conducted_heat", std::int64_t{particles.options.conducted_heat}});
   spec.attributes.push_back({"failed", std::int64_t{particles.options.failed}});
+  spec.attributes.push_back({"facing", std::int64_t{particles.options.facing}});
   spec.datasets.push_back({integers_path, NumberType::int64, {state.integers.size()}, "1", {}});
   for_each_column(particles, [&](std::string_view name, int component, const auto& column) {
     spec.datasets.push_back({column_path(name, component),
@@ -131,6 +132,7 @@ void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string
   particles.options.back_stress = file.integer("back_stress") != 0;
   particles.options.conducted_heat = optional_column(file, "conducted_heat");
   particles.options.failed = optional_column(file, "failed");
+  particles.options.facing = optional_column(file, "facing");
   const RowRange rows = equal_share(file.dataset(column_path("id", -1)).rows(), communicator);
   resize(particles, rows.count);
   for_each_column(particles, [&](std::string_view name, int component, auto& column) {

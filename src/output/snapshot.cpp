@@ -104,7 +104,8 @@ const std::string map_folder = "/map/";
 constexpr const char* owner_path = "/slabs/owner";
 
 template <int Dim>
-FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int64_t floored) {
+FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int64_t floored,
+                   bool coloured) {
   FileSpec spec;
   spec.attributes = root_attributes("snapshot", input.time, input.step, input.scene_text);
   spec.attributes.push_back({"record", input.record});
@@ -128,6 +129,7 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
   add("grain", NumberType::int32, 1, "1");
   add("material", NumberType::int32, 1, "1");
   if (input.particles.options.failed) add("failed", NumberType::int32, 1, "1");
+  if (coloured) add("colour", NumberType::int32, 1, "1");
   const bool single = input.scene.output.precision == Precision::single_precision;
   for (const auto& field : fields_of(input.particles)) {
     add(field.name, single ? NumberType::float32 : NumberType::float64, field.components,
@@ -189,8 +191,10 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
                   communicator);
   }
   const RowRange rows = rows_in_rank_order(particles.size(), communicator);
-  Hdf5File file = Hdf5File::create(path, file_spec(input, rows.total, floored), communicator,
-                                   Replace::yes, Durable::later);
+  // A rank may have no particles, and then no colours.
+  const bool coloured = sum(static_cast<std::int64_t>(input.colour.size()), communicator) > 0;
+  Hdf5File file = Hdf5File::create(path, file_spec(input, rows.total, floored, coloured),
+                                   communicator, Replace::yes, Durable::later);
   const auto write_integers = [&](std::string_view name, const auto& column) {
     using T = typename std::remove_cvref_t<decltype(column)>::value_type;
     if (!wanted(input.scene, name)) return;
@@ -200,6 +204,7 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   write_integers("grain", particles.grain);
   write_integers("material", particles.material);
   if (particles.options.failed) write_integers("failed", particles.failed);
+  if (coloured) write_integers("colour", input.colour);
   for (const auto& field : fields_of(particles)) {
     if (!wanted(input.scene, field.name)) continue;
     if (input.scene.output.precision == Precision::single_precision) {

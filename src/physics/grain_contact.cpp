@@ -140,6 +140,16 @@ void collide_node(const std::vector<ContactField>& fields, int row, int node, bo
 
 }  // namespace
 
+double node_capacity(const GridShape& shape, const Transfer& transfer, int row, int lateral) {
+  const double beyond = share_beyond(transfer);
+  double space = 1.0;
+  for (int a = 0; a < shape.dimension; ++a) space *= shape.cell;
+  space = space * share_inside(row, shape.rows, false, beyond);
+  space *= share_inside(lateral % shape.nodes[0], shape.nodes[0], shape.periodic[0], beyond);
+  if (shape.dimension == 2) return space;
+  return space * share_inside(lateral / shape.nodes[0], shape.nodes[1], shape.periodic[1], beyond);
+}
+
 std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass_lane) {
   const SlabGrid& grid = *fields.front().motion;
   const int width = grid.shape().row_size;
@@ -164,21 +174,12 @@ ContactSummary collide_grains(const std::vector<ContactField>& fields,
                               NodeLedger& ledger) {
   const SlabGrid& grid = *fields.front().motion;
   const GridShape& shape = grid.shape();
-  const double beyond = share_beyond(scene.transfer);
-  double space = 1.0;
-  for (int a = 0; a < Dim; ++a) space *= shape.cell;
   ContactSummary summary;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
-    const double along = space * share_inside(row, shape.rows, false, beyond);
     for (int i = 0; i < shape.row_size; ++i) {
       if (!shared[at + i]) continue;
-      settings.capacity =
-          along * share_inside(i % shape.nodes[0], shape.nodes[0], shape.periodic[0], beyond);
-      if constexpr (Dim == 3) {
-        settings.capacity *=
-            share_inside(i / shape.nodes[0], shape.nodes[1], shape.periodic[1], beyond);
-      }
+      settings.capacity = node_capacity(shape, scene.transfer, row, i);
       collide_node<Dim>(fields, row, i, row < grid.last_row(), settings, faces, ledger, summary);
     }
   }

@@ -80,11 +80,28 @@ void check_conduction(const Scene& scene, Report& report) {
               report);
 }
 
+/// Self-contact where it cannot work, with the reason.
+void check_self_contact(const Scene& scene, Report& report) {
+  if (!good(report, {"contact.self"}) || !scene.contact.self) return;
+  std::string allowed;
+  if (scene.dimension == 3) {
+    allowed = "false in 3-D: the sides of a void wall are told apart in the plane only";
+  } else if (makes_grains(scene.sample.kind)) {
+    allowed = "false with a sample of grains: each grain has one velocity field";
+  } else if (scene.transfer.velocity == VelocityTransfer::fmpm) {
+    allowed = "false with transfer.velocity = \"fmpm\": its filter would weld the walls";
+  } else if (scene.transfer.update == VelocityUpdate::musl) {
+    allowed = "false with transfer.update = \"musl\": contact acts once in a step";
+  }
+  if (!allowed.empty()) add_problem("contact.self", "found true, allowed " + allowed, report);
+}
+
 }  // namespace
 
 void check_scheme(const Scene& scene, Report& report) {
   check_transfer(scene, report);
   check_conduction(scene, report);
+  check_self_contact(scene, report);
 }
 
 }  // namespace poreshock::scene_text

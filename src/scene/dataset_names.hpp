@@ -1,6 +1,7 @@
 #pragma once
 // Names of what a snapshot may hold and of what morphology may measure.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,21 @@ inline const std::vector<std::string> particle_datasets{"id",
                                                         "internal_energy",
                                                         "kinetic_energy"};
 
+/// True when there may be several velocity fields: grains, or self-contact.
+inline bool may_have_contact(const Scene& scene) {
+  if (scene.contact.self || makes_grains(scene.sample.kind)) return true;
+  if (scene.sample.islands == Islands::grains) return true;
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    return body.grain != (scene.sample.kind == SampleKind::none ? scene.bodies.front().grain : 0);
+  });
+}
+
 /// The particle datasets of a scene: the common ones and those of the physics it asks for.
 inline std::vector<std::string> datasets_of(const Scene& scene) {
   std::vector<std::string> names = particle_datasets;
   if (scene.thermal == Thermal::paper && conducts_heat(scene)) names.push_back("conducted_heat");
   if (can_fail(scene)) names.push_back("failed");
+  if (may_have_contact(scene)) names.push_back("colour");
   return names;
 }
 

@@ -80,6 +80,8 @@ void visit_contact(Visitor& visitor, Contact& contact) {
                  {not_negative, "", "coefficient of Coulomb friction; 1e30 = stick"});
   choice(visitor, "gap", contact.gap, tests,
          {"contact where grains fill a node's space, or wherever they approach"});
+  visitor.flag("self", contact.self,
+               {"true where opposite walls of voids in one grain meet as two grains do"});
 }
 
 template <typename Visitor>

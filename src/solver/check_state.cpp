@@ -51,7 +51,7 @@ bool sound_clock(const RunState& state) {
 
 bool same_columns(const ParticleOptions& a, const ParticleOptions& b) {
   return a.affine == b.affine && a.back_stress == b.back_stress &&
-         a.conducted_heat == b.conducted_heat && a.failed == b.failed;
+         a.conducted_heat == b.conducted_heat && a.failed == b.failed && a.facing == b.facing;
 }
 
 }  // namespace

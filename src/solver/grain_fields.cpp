@@ -9,6 +9,7 @@
 #include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/surfaces.hpp"
 #include "poreshock/transfer/sweep.hpp"
+#include "split_fields.hpp"
 
 namespace poreshock {
 
@@ -32,30 +33,6 @@ std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
   return cells;
 }
 
-/// Fields for so many colours: the first takes the grids of the run. Grids once made stay for later
-/// steps.
-template <int Dim>
-void make_fields(int colours, Simulation<Dim>& sim) {
-  GrainFields& all = sim.grain_fields;
-  all.fields.clear();
-  if (colours == 1) return;
-  const bool averaging = sim.averages != nullptr;
-  std::size_t used = 0;
-  const auto new_grid = [&] {
-    if (used == all.grids.size()) {
-      all.grids.push_back(
-          std::make_unique<SlabGrid>(sim.grid->shape(), sim.grid->starts(), sim.communicator));
-    }
-    return all.grids[used++].get();
-  };
-  for (int c = 0; c < colours; ++c) {
-    VelocityField& field = all.fields.emplace_back();
-    field.grid = c == 0 ? sim.grid.get() : new_grid();
-    if (averaging) field.averages = c == 0 ? sim.averages.get() : new_grid();
-    field.surfaces = averaging ? field.averages : new_grid();
-  }
-}
-
 /// The particles of the chosen cells.
 void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrder& result) {
   result.order.clear();
@@ -68,28 +45,6 @@ void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrd
                         all.order.begin() + all.start[c + 1]);
   }
   result.start.back() = static_cast<std::uint32_t>(result.order.size());
-}
-
-/// Gives the particles of all cells to the fields of their colours, in the same order.
-void split(const CellOrder& cells, const std::vector<std::int32_t>& grain, GrainFields& all) {
-  for (VelocityField& field : all.fields) {
-    field.cells.order.clear();
-    field.cells.awake = cells.awake;
-    field.cells.start.resize(cells.start.size());
-  }
-  for (std::size_t c = 0; c + 1 < cells.start.size(); ++c) {
-    for (VelocityField& field : all.fields) {
-      field.cells.start[c] = static_cast<std::uint32_t>(field.cells.order.size());
-    }
-    for (std::uint32_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
-      const std::uint32_t p = cells.order[k];
-      const auto colour = static_cast<std::size_t>(all.colours[static_cast<std::size_t>(grain[p])]);
-      all.fields[colour].cells.order.push_back(p);
-    }
-  }
-  for (VelocityField& field : all.fields) {
-    field.cells.start.back() = static_cast<std::uint32_t>(field.cells.order.size());
-  }
 }
 
 /// Node of a row that stands for node i across periodic sides.
@@ -138,9 +93,13 @@ double closing_time(double dt, const Simulation<Dim>& sim) {
   return std::max(dt, closing_cells * sim.scene.domain.cell / speed);
 }
 
+/// The fields that may collide: all, or the two sides of self-contact.
 std::vector<ContactField> contact_fields(const GrainFields& all) {
   std::vector<ContactField> fields;
-  for (const VelocityField& f : all.fields) fields.push_back({f.grid, f.surfaces});
+  for (const VelocityField& f : all.fields) {
+    if (!all.sides.empty() && fields.size() == 2) break;
+    fields.push_back({f.grid, f.surfaces});
+  }
   return fields;
 }
 
@@ -149,6 +108,7 @@ std::vector<ContactField> contact_fields(const GrainFields& all) {
 void release_fields(GrainFields& fields) {
   fields.fields.clear();
   fields.grids.clear();
+  fields.sides.clear();
 }
 
 template <int Dim>
@@ -163,7 +123,17 @@ void find_grains(Simulation<Dim>& sim) {
   }
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, limits, 2, MPI_INT32_T, MPI_MAX, sim.communicator),
             "MPI_Allreduce of grain numbers");
-  if (-limits[0] == limits[1]) return;
+  const bool self = sim.scene.contact.self;
+  if (-limits[0] == limits[1]) {
+    if (self) sim.grain_fields.faces.emplace(sim.scene.transfer);
+    return;
+  }
+  if (self) {
+    throw InputError(
+        "contact.self: found true in a scene of several grains. Allowed is false: there each grain "
+        "has one velocity field and none is left for its other side. Set contact.self = false, or "
+        "give all bodies the same grain.");
+  }
   if (sim.scene.transfer.update == VelocityUpdate::musl) {
     throw InputError(
         "transfer.update: found \"musl\" in a scene of several grains. Allowed is \"usl\": contact "
@@ -176,13 +146,38 @@ void find_grains(Simulation<Dim>& sim) {
 template <int Dim>
 void split_by_colour(Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
+  if (sim.scene.contact.self) return split_by_facing(sim);
   if (all.grains == 0) return;
   // Two grains share a node when their cells are less than a stencil apart. What a grain adds to
   // a node does not depend on its colour, so colours may change from step to step.
   const int reach = sim.grid->shape().stencil - 1;
   all.colours = colour_grains(all.grains, near_grains(grain_cells(sim), reach, *sim.grid));
   make_fields(1 + *std::max_element(all.colours.begin(), all.colours.end()), sim);
-  if (!all.fields.empty()) split(sim.cells, sim.particles.grain, all);
+  if (all.fields.empty()) return;
+  split(
+      sim.cells,
+      [&](std::uint32_t p) {
+        return all.colours[static_cast<std::size_t>(sim.particles.grain[p])];
+      },
+      all);
+}
+
+template <int Dim>
+std::vector<std::int32_t> particle_colours(const Simulation<Dim>& sim) {
+  const Particles<Dim>& particles = sim.particles;
+  std::vector<std::int32_t> colours;
+  if (!has_contact(sim)) return colours;
+  colours.reserve(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (sim.scene.contact.self) {
+      colours.push_back(facing_quarter(particles.facing[0][p], particles.facing[1][p]));
+    } else {
+      const std::vector<std::int8_t>& of_grain = sim.grain_fields.colours;
+      colours.push_back(of_grain.empty() ? 0
+                                         : of_grain[static_cast<std::size_t>(particles.grain[p])]);
+    }
+  }
+  return colours;
 }
 
 template <int Dim>
@@ -199,6 +194,7 @@ void collide(double dt, Simulation<Dim>& sim) {
     scatter_surfaces(sim.particles, chosen, sim.scene.transfer, *f.surfaces);
     f.surfaces->exchange();
   }
+  if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::surfaces));
   const ContactSettings settings{.friction = sim.scene.contact.friction,
                                  .gap_test = sim.scene.contact.gap == GapTest::volume,
                                  .cell = sim.scene.domain.cell,
@@ -229,6 +225,8 @@ ContactRow contact_row(const Simulation<Dim>& sim) {
 
 template ContactRow contact_row<2>(const Simulation<2>&);
 template ContactRow contact_row<3>(const Simulation<3>&);
+template std::vector<std::int32_t> particle_colours<2>(const Simulation<2>&);
+template std::vector<std::int32_t> particle_colours<3>(const Simulation<3>&);
 template void find_grains<2>(Simulation<2>&);
 template void find_grains<3>(Simulation<3>&);
 template void split_by_colour<2>(Simulation<2>&);

@@ -68,8 +68,8 @@ void write_profile_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 
 template <int Dim>
 SnapshotInput<Dim> snapshot_input(const Simulation<Dim>& sim) {
-  return {sim.scene,          sim.scene_text, sim.materials,  sim.particles,
-          record_number(sim), sim.clock.step, sim.clock.time, grid_shift(sim)};
+  return {sim.scene,      sim.scene_text, sim.materials,   sim.particles,        record_number(sim),
+          sim.clock.step, sim.clock.time, grid_shift(sim), particle_colours(sim)};
 }
 
 template <int Dim>
@@ -82,7 +82,7 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   row.dt = sim.clock.allowed;
   row.wall_force = mean_wall_force(sim.ledger, Dim, row.time, sim.communicator);
   mark_row(Dim, row.time, sim.ledger);
-  if (has_grains(sim)) row.contact = contact_row(sim);
+  if (has_contact(sim)) row.contact = contact_row(sim);
   const auto write = [history = recorder.history, row] { history->write(row); };
   write_or_wait({"a row of history.csv", write}, recorder.backlog, sim.communicator);
   if (!recorder.first_total) recorder.first_total = row.total;
@@ -147,7 +147,7 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
   Recorder<Dim> recorder;
   recorder.folder = folder;
   recorder.history = std::make_shared<HistoryWriter>(
-      folder + "/history.csv", Dim, has_grains(sim), sim.communicator,
+      folder + "/history.csv", Dim, has_contact(sim), sim.communicator,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
   recorder.pixels = std::move(pixels);
   recorder.last_checkpoint_step = sim.clock.step;

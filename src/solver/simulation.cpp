@@ -7,6 +7,7 @@
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/average.hpp"
+#include "poreshock/transfer/facing.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
 #include "poreshock/transfer/remap.hpp"
@@ -76,6 +77,34 @@ void update_particles(const CellOrder& cells, RowRange rows, const SlabGrid& gri
   const std::span places(cells.order.data() + first, first_place(cells, grid, rows.last) - first);
   update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, sim.particles,
                      report);
+  if (sim.particles.options.facing) {
+    turn_facing<Dim>(sim.step_data.gradient, dt, places, sim.particles);
+  }
+}
+
+/// Averages p + q of the particles of all fields to their nodes.
+template <int Dim>
+void average_pressures(Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::average);
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid&, SlabGrid* averages) {
+    sum_pressure(sim.particles, cells, sim.scene.transfer, *averages);
+  });
+  share_averages(sim);
+  for_each_field(
+      sim, [](const CellOrder&, SlabGrid&, SlabGrid* averages) { divide_by_volume(*averages); });
+}
+
+/// Averages the dilatations of the particles of all fields to their nodes.
+template <int Dim>
+void average_dilatations(Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::average);
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    sum_dilatation(sim.particles, cells, sim.scene.transfer, grid, *averages);
+  });
+  share_averages(sim);
+  for_each_field(sim, [](const CellOrder&, SlabGrid& grid, SlabGrid* averages) {
+    divide_dilatation<Dim>(grid, *averages);
+  });
 }
 
 /// Momentum, contact and boundaries on the nodes of all velocity fields.
@@ -85,7 +114,8 @@ void update_grids(double dt, Simulation<Dim>& sim) {
   const Transfer& transfer = sim.scene.transfer;
   {
     const Phase phase(sim.phases, PhaseName::grid_update);
-    for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+    join_fields(sim);
+    for_each_side(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
       integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, grid, ledger);
     });
   }
@@ -94,11 +124,12 @@ void update_grids(double dt, Simulation<Dim>& sim) {
     collide(dt, sim);
   }
   const Phase phase(sim.phases, PhaseName::grid_update);
-  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+  for_each_side(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
     apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, grid, ledger);
     if (sim.body_force.squaredNorm() > 0.0) add_body_work<Dim>(sim.body_force, dt, grid, ledger);
   });
   finish_contact(sim);
+  spread_fields(sim);
   for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
     prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
   });
@@ -128,11 +159,8 @@ void advance(Simulation<Dim>& sim, double dt) {
                  sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
                  sim.ledger.conduction);
   }
+  if (averaging) average_pressures(sim);
   for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
-    if (averaging) {
-      const Phase phase(sim.phases, PhaseName::average);
-      average_pressure(sim.particles, cells, transfer, *averages);
-    }
     {
       const Phase phase(sim.phases, PhaseName::particles_to_grid);
       particles_to_grid(sim.particles, cells, transfer, averages, grid);
@@ -141,12 +169,9 @@ void advance(Simulation<Dim>& sim, double dt) {
     grid.exchange();
   });
   update_grids(dt, sim);
+  if (averaging) average_dilatations(sim);
   StressReport report;
   for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
-    if (averaging) {
-      const Phase phase(sim.phases, PhaseName::average);
-      average_dilatation(sim.particles, cells, transfer, grid, *averages);
-    }
     for_each_chunk(transfer, cells, grid, [&](RowRange rows) {
       update_particles(cells, rows, grid, averages, dt, sim, report);
     });

@@ -52,6 +52,7 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
   sim.particles.options.failed = can_fail(scene);
+  sim.particles.options.facing = scene.contact.self;
   const bool conducts = conducts_heat(scene);
   sim.particles.options.conducted_heat = conducts && scene.thermal == Thermal::paper;
   sim.conduction_limit =
@@ -78,6 +79,11 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   sim.sample = total(report, communicator);
   find_grains(sim);
   rebalance(0.0, sim);
+  if (has_contact(sim)) {
+    sort_particles(sim);
+    mark_surfaces(sim);
+    split_by_colour(sim);
+  }
   release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;

@@ -7,18 +7,6 @@ namespace poreshock {
 
 namespace {
 
-/// Turns sums of volume x quantity into averages; empty nodes stay zero. Fills periodic images.
-void divide_by_volume(SlabGrid& averages) {
-  for (int row = averages.first_row(); row < averages.node_end(); ++row) {
-    Lanes* nodes = averages.row(row);
-    for (int i = 0; i < averages.shape().row_size; ++i) {
-      const double volume = nodes[i][AverageLane::volume];
-      if (volume > 0.0) nodes[i] = nodes[i] / volume;
-    }
-  }
-  averages.fill_periodic_images();
-}
-
 /// Divergences of the nodal velocities at one particle, at the end of the step and in its middle.
 template <int Dim, class Spline, class Nodes>
 inline std::array<double, 2> divergences(const BlockWeights<Dim, Spline>& w, const Nodes& nodes,
@@ -79,9 +67,20 @@ void join_motion(const SlabGrid& averages, SlabGrid& grid) {
 
 }  // namespace
 
+void divide_by_volume(SlabGrid& averages) {
+  for (int row = averages.first_row(); row < averages.node_end(); ++row) {
+    Lanes* nodes = averages.row(row);
+    for (int i = 0; i < averages.shape().row_size; ++i) {
+      const double volume = nodes[i][AverageLane::volume];
+      if (volume > 0.0) nodes[i] = nodes[i] / volume;
+    }
+  }
+  averages.fill_periodic_images();
+}
+
 template <int Dim>
-void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
-                      const Transfer& transfer, SlabGrid& averages) {
+void sum_pressure(const Particles<Dim>& particles, const CellOrder& cells, const Transfer& transfer,
+                  SlabGrid& averages) {
   with_shape(transfer, [&](const auto& spline) {
     scatter_values<Dim, 2>(
         spline, particles, cells,
@@ -93,19 +92,45 @@ void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
         averages);
   });
   averages.exchange();
+}
+
+template <int Dim>
+void average_pressure(const Particles<Dim>& particles, const CellOrder& cells,
+                      const Transfer& transfer, SlabGrid& averages) {
+  sum_pressure(particles, cells, transfer, averages);
   divide_by_volume(averages);
+}
+
+template <int Dim>
+void sum_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
+                    const Transfer& transfer, const SlabGrid& grid, SlabGrid& averages) {
+  with_shape(transfer, [&](const auto& spline) {
+    scatter_dilatation<Dim>(spline, particles, cells, grid, averages);
+  });
+  averages.exchange();
+}
+
+template <int Dim>
+void divide_dilatation(SlabGrid& grid, SlabGrid& averages) {
+  divide_by_volume(averages);
+  if constexpr (Dim == 2) join_motion(averages, grid);
 }
 
 template <int Dim>
 void average_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
                         const Transfer& transfer, SlabGrid& grid, SlabGrid& averages) {
-  with_shape(transfer, [&](const auto& spline) {
-    scatter_dilatation<Dim>(spline, particles, cells, grid, averages);
-  });
-  averages.exchange();
-  divide_by_volume(averages);
-  if constexpr (Dim == 2) join_motion(averages, grid);
+  sum_dilatation(particles, cells, transfer, grid, averages);
+  divide_dilatation<Dim>(grid, averages);
 }
+
+template void sum_pressure<2>(const Particles<2>&, const CellOrder&, const Transfer&, SlabGrid&);
+template void sum_pressure<3>(const Particles<3>&, const CellOrder&, const Transfer&, SlabGrid&);
+template void sum_dilatation<2>(const Particles<2>&, const CellOrder&, const Transfer&,
+                                const SlabGrid&, SlabGrid&);
+template void sum_dilatation<3>(const Particles<3>&, const CellOrder&, const Transfer&,
+                                const SlabGrid&, SlabGrid&);
+template void divide_dilatation<2>(SlabGrid&, SlabGrid&);
+template void divide_dilatation<3>(SlabGrid&, SlabGrid&);
 
 template void average_pressure<2>(const Particles<2>&, const CellOrder&, const Transfer&,
                                   SlabGrid&);

@@ -77,6 +77,7 @@ void round_trip(ParticleOptions options) {
       EXPECT_EQ(particles.options.back_stress, options.back_stress);
       EXPECT_EQ(particles.options.conducted_heat, options.conducted_heat);
       EXPECT_EQ(particles.options.failed, options.failed);
+      EXPECT_EQ(particles.options.facing, options.facing);
       const RowRange share = equal_share(total, part);
       const auto expected = made_up_particles<Dim>(static_cast<std::int64_t>(share.first),
                                                    static_cast<std::int64_t>(share.count), options);
@@ -95,7 +96,7 @@ TEST(Checkpoint, AnyRanksToAnyRanksThreeDimensions) {
 }
 
 TEST(Checkpoint, AnyRanksToAnyRanksOptionalColumns) {
-  round_trip<2>({false, false, true, true});
+  round_trip<2>({false, false, true, true, true});
 }
 
 TEST(Checkpoint, NoParticlesAtAll) {

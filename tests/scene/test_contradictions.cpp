@@ -26,6 +26,17 @@ TEST(Contradictions, TooFewCells) {
       "axis (8e-05 m)");
 }
 
+TEST(Contradictions, SelfContact) {
+  const std::string self = "[contact]\nself = true\n";
+  EXPECT_EQ(problems(small_scene(self)), "");
+  EXPECT_EQ(problems(small_scene(self), {"transfer.velocity=fmpm"}),
+            "s.toml:19:8: contact.self: found true, allowed false with transfer.velocity = "
+            "\"fmpm\": its filter would weld the walls");
+  EXPECT_EQ(problems(small_scene(self), {"transfer.preset=lineage", "transfer.update=musl"}),
+            "s.toml:19:8: contact.self: found true, allowed false with transfer.update = \"musl\": "
+            "contact acts once in a step");
+}
+
 TEST(Contradictions, Walls) {
   const std::string moving = "[boundary]\nlow = { kind = \"wall\", velocity = 100 }\n";
   EXPECT_EQ(problems(small_scene(moving + "high = \"wall\"\n")),

@@ -207,6 +207,19 @@ TEST(SameBits, GrainsWithRestartAndRebalance) {
   EXPECT_EQ(checksum_with_restart<2>(scene, 1, all, 81, 120), straight);
 }
 
+// Voids collapse across slabs, and their walls face each other.
+TEST(SameBits, SelfContactOnAllRanks) {
+  const Scene scene = scene_of(porous_text(), {"contact.self=true", "contact.friction=0.3"});
+  const int all = size(MPI_COMM_WORLD);
+  const std::uint64_t straight = checksum_after<2>(scene, 1, 110);
+  for (int ranks = 2; ranks <= all; ++ranks) {
+    EXPECT_EQ(checksum_after<2>(scene, ranks, 110), straight) << ranks << " ranks";
+  }
+  EXPECT_EQ(checksum_after<2>(scene, all, 110, 7), straight);
+  EXPECT_EQ(checksum_with_restart<2>(scene, all, 1, 80, 110), straight);
+  EXPECT_EQ(checksum_with_restart<2>(scene, 1, all, 81, 110), straight);
+}
+
 TEST(SameBits, BallsIn3D) {
   const Scene scene =
       scene_of(porous_3d_text(), {"sample.kind=packed_grains", "sample.porosity=0.5",

@@ -28,6 +28,7 @@ CASES = {
     "very_porous": Case("void fraction 0.6 at 3 km/s", voids.very_porous, POROUS_GUARDS),
     "ligament": Case("ligament of 2-3 particles between two voids", voids.ligament, POROUS_GUARDS),
     "void_at_boundary": Case("void at the wall, void open to the free surface", voids.at_boundary, POROUS_GUARDS),
+    "closing": Case("void walls that close, are sheared, and pulled apart", voids.closing),
     "spray": Case("single particles in empty space", free.spray),
     "needle": Case("needle of aspect ratio 20 on the wall", free.needle),
     "slender": Case("needle of aspect ratio 20 on another grain", contacts.slender),

@@ -67,3 +67,55 @@ def at_boundary(case, lab):
                  limit(case, f"{name}: fastest particle / impact speed", fastest(run) / 1100.0, 5.0, ".2f"),
                  lost(case, run)]
     return rows
+
+
+def slot_histories(run):
+    """Mean stress across the two layers of particles beside the slot's middle, tension positive, Pa, and the opening
+    of the slot, m, by snapshot."""
+    scene, start = run.scene, run.particles(0)
+    low, high = scene["void"][0]["low"], scene["void"][0]["high"]
+    cell, middle = scene["domain"]["cell"], 0.5 * (low[1] + high[1])
+    length = high[0] - low[0]
+    x, y = start["position"].T
+    inside = (x > low[0] + length / 4.0) & (x < high[0] - length / 4.0)
+    walls = inside & (abs(y - middle) < 0.5 * (high[1] - low[1]) + cell)
+    upper = walls & (y > middle)
+    stress, opening = [], []
+    for path in run.snapshots:
+        state = particles(path)
+        stress.append(float(numpy.average(state["stress"][walls, 1], weights=state["mass"][walls])))
+        heights = state["position"][:, 1]
+        opening.append(float(numpy.mean(heights[upper]) - numpy.mean(heights[walls & ~upper])) - cell)
+    return numpy.array(stress), numpy.array(opening)
+
+
+def closing(case, lab):
+    """A slot that closes and is pulled open, and a gap that closes under shear."""
+    slot = {name: slot_histories(lab.run(f"slot_{name}", "hard/closing_slot.toml", f"contact.self={name}"))
+            for name in ("true", "false")}
+    stress, opening = slot["true"]
+    cell = 6.25e-6
+    rows = [check(case, "slot, when closed: mean stress, GPa", f"{1e-9 * stress.min():.2f}", "< -0.5",
+                  stress.min() < -0.5e9),
+            limit(case, "slot: largest mean tension / largest compression", stress.max() / -stress.min(), 0.05),
+            shown(case, "the same with contact.self = false",
+                  f"{slot['false'][0].max() / -slot['false'][0].min():.2f}"),
+            check(case, "slot: least and last opening, cells", f"{opening.min() / cell:.2f}, {opening[-1] / cell:.2f}",
+                  "< 0.2, > 0.5", opening.min() < 0.2 * cell and opening[-1] > 0.5 * cell),
+            shown(case, "the same with contact.self = false",
+                  f"{slot['false'][1].min() / cell:.2f}, {slot['false'][1][-1] / cell:.2f}")]
+    run = lab.run("plates", "hard/closing_plates.toml")
+    first, last = run.particles(0), run.particles()
+    upper = first["position"][:, 1] > 0.403e-3
+
+    def relative(state, axis):
+        velocity, mass = state["velocity"][:, axis], state["mass"]
+        return numpy.average(velocity[upper], weights=mass[upper]) - numpy.average(velocity[~upper], weights=mass[~upper])
+
+    pushed = float(run.history["contact_heat"][-1] + run.history["friction_heat"][-1])
+    gap = float(numpy.min(last["position"][upper, 1]) - numpy.max(last["position"][~upper, 1])) - 0.5 * cell
+    return rows + [
+        near(case, "plates: sideways velocity left, m/s", float(relative(last, 0)), float(relative(first, 0)), 0.01),
+        check(case, "plates: velocity apart, m/s; gap at the end, cells",
+              f"{relative(last, 1):.0f}; {gap / cell:.1f}", "> 0; > 1", relative(last, 1) > 0.0 and gap > cell),
+        check(case, "plates: heat of the contact, J/m", f"{pushed:.3g}", "> 0", pushed > 0.0)]

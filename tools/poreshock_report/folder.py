@@ -80,6 +80,15 @@ def snapshot_times(folder):
     return sorted(found)
 
 
+def has_dataset(path, name):
+    """Whether a snapshot that can be read holds /particles/NAME."""
+    try:
+        with h5py.File(path, "r") as file:
+            return name in file["particles"]
+    except (OSError, KeyError):
+        return False
+
+
 def read_particles(path, names):
     """Datasets of /particles of a snapshot by name."""
     try:

@@ -7,6 +7,7 @@ from . import folder as reader
 
 CONTACT = ("contact_nodes", "crowded_nodes", "least_gap", "penetration", "momentum_residual")
 SHADES = 12  # grains of neighbouring numbers get different ones
+FIELDS = 8   # most velocity fields of a run
 
 
 def present(folder):
@@ -18,10 +19,12 @@ def present(folder):
 
 
 def grains(folder):
-    """First, middle and last snapshot: above by grain, below by temperature."""
+    """First, middle and last snapshot: by grain, by velocity field where the snapshots have it, by temperature."""
     times = reader.snapshot_times(folder)
     chosen = [times[i] for i in sorted({0, len(times) // 2, len(times) - 1})]
-    states = [reader.read_particles(path, ("position", "temperature", "mass", "density", "grain")) for _, path in chosen]
+    names = ("position", "temperature", "mass", "density", "grain")
+    coloured = all(reader.has_dataset(path, "colour") for _, path in chosen)
+    states = [reader.read_particles(path, names + (("colour",) if coloured else ())) for _, path in chosen]
     if states[0]["position"].shape[1] != 2:
         raise reader.Missing("grains are drawn in 2-D only")
     pieces = [figures.slice_of(state) for state in states]
@@ -32,17 +35,20 @@ def grains(folder):
     panel, tall, to_scale = figures.panel_size(width, height)
     hottest = max(numpy.percentile(piece[2], 99.5) for piece in pieces)
     coldest = min(min(piece[2].min() for piece in pieces), hottest - 1.0)
-    figure, axes = plt.subplots(2, len(chosen), sharex=True, sharey=True, squeeze=False, layout="compressed",
-                                figsize=((panel + 0.15) * len(chosen) + 2.0, 2.0 * tall + 1.5))
+    count = 3 if coloured else 2
+    figure, axes = plt.subplots(count, len(chosen), sharex=True, sharey=True, squeeze=False, layout="compressed",
+                                figsize=((panel + 0.15) * len(chosen) + 2.0, count * tall + 1.5))
     for column, ((time, _), state, piece) in enumerate(zip(chosen, states, pieces)):
         pixel = max(piece[3], max(width, height) / 1500.0)
         # Seven steps in a circle of twelve keep grains of neighbouring numbers apart.
         shade = (state["grain"] * 7) % SHADES
-        across, along, which = piece[0], piece[1], shade.astype(float)
-        for axis, values, colours, span in ((axes[0][column], which, "Paired", (-0.5, SHADES - 0.5)),
-                                            (axes[1][column], piece[2], "turbo", (coldest, hottest))):
-            if colours == "Paired":
-                cells, spans = last_on_pixels(across, along, values, extent, pixel)
+        across, along = piece[0], piece[1]
+        rows = [(shade, "Paired", (-0.5, SHADES - 0.5)), (piece[2], "turbo", (coldest, hottest))]
+        if coloured:
+            rows.insert(1, (state["colour"], "Set1", (-0.5, FIELDS + 0.5)))
+        for axis, (values, colours, span) in zip(axes[:, column], rows):
+            if colours != "turbo":
+                cells, spans = last_on_pixels(across, along, values.astype(float), extent, pixel)
             else:
                 cells, spans = figures.pixel_mean(across, along, values, extent, pixel)
             image = axis.imshow(cells, origin="lower", extent=[1e3 * end for pair in spans for end in pair], cmap=colours,
@@ -50,10 +56,10 @@ def grains(folder):
                                 aspect="equal" if to_scale else "auto")
             axis.grid(False)
         axes[0][column].set_title(f"{1e9 * time:.4g} ns")
-        axes[1][column].set_xlabel("across [mm]")
+        axes[-1][column].set_xlabel("across [mm]")
     for row in axes:
         row[0].set_ylabel("along the shock axis [mm]")
-    figure.colorbar(image, ax=axes[1], label="temperature [K]")
+    figure.colorbar(image, ax=axes[-1], label="temperature [K]")
     return figure
 
 

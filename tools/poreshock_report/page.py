@@ -160,8 +160,10 @@ def grain_sections(folder):
     """Sections of a run with several grains; none for others."""
     if not grain_figures.present(folder):
         return []
-    return [picture(folder, "grains", "Grains", "Above: one shade for each grain, as many as there are in the palette. Below: "
-                    "temperature on one scale.", lambda: grain_figures.grains(folder)),
+    return [picture(folder, "grains", "Grains", "Above: one shade for each grain, as many as there are in the palette. Then the "
+                    "velocity field each particle is in, where the snapshots hold it: grains that meet never share one; "
+                    "with contact.self the four fields face down, up, left and right. Below: temperature on one scale.",
+                    lambda: grain_figures.grains(folder)),
             picture(folder, "contact", "Contact", "Nodes at which grains push each other, those at which more than two meet, "
                     "the least gap and the largest penetration of the step, and the heat so far.",
                     lambda: grain_figures.contact(folder))]

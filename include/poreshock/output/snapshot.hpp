@@ -27,7 +27,7 @@ struct SnapshotMap {
   std::array<double, 3> low{};     ///< m, low corner
 };
 
-/// What a snapshot is made of; everything is referred to, nothing is copied.
+/// What a snapshot is made of; all but the colours is referred to.
 template <int Dim>
 struct SnapshotInput {
   const Scene& scene;
@@ -38,7 +38,8 @@ struct SnapshotInput {
   std::int64_t step = 0;
   double time = 0.0;                        ///< s
   Vector<Dim> shift = Vector<Dim>::Zero();  ///< m, added to the positions
-  std::vector<SnapshotMap> maps{};
+  std::vector<std::int32_t> colour = {};    ///< velocity field of each particle; empty: not written
+  std::vector<SnapshotMap> maps = {};
 };
 
 /// File name of a snapshot in its folder: snapshot_NNNNNN.h5.

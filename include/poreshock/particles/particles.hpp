@@ -18,6 +18,7 @@ struct ParticleOptions {
   bool back_stress = false;     ///< kinematic hardening
   bool conducted_heat = false;  ///< heat conduction in paper mode
   bool failed = false;          ///< some material has a spall strength
+  bool facing = false;          ///< self-contact
 };
 
 /// State of the particles of one rank. All columns have the same length, but those not in use: 0.
@@ -41,6 +42,8 @@ struct Particles {
   std::array<std::vector<double>, symmetric_size<Dim>> back_stress;  ///< Pa
   std::vector<double> conducted_heat;  ///< J/kg, received by conduction; part of internal_energy
   std::vector<std::int32_t> failed;    ///< 1 once the tension has exceeded the spall strength
+  /// Unit vector out of the material towards the surface it is nearest to; 0 far from all.
+  std::array<std::vector<double>, Dim> facing;
 
   std::size_t size() const { return id.size(); }
 };
@@ -69,6 +72,7 @@ void for_each_column(ParticlesType& particles, Visitor&& visit) {
   if (particles.options.back_stress) each("back_stress", particles.back_stress);
   if (particles.options.conducted_heat) visit("conducted_heat", -1, particles.conducted_heat);
   if (particles.options.failed) visit("failed", -1, particles.failed);
+  if (particles.options.facing) each("facing", particles.facing);
 }
 
 /// Sets the number of particles; new ones are zero. Not collective.

@@ -26,6 +26,10 @@ struct ContactSummary {
   double residual = 0.0;  ///< largest share of the impulses of a node that did not cancel
 };
 
+/// Volume that fills a node, m^Dim: cell^Dim, less beyond the sides of the domain. `lateral` is the
+/// index of the node in its row. Pure function.
+double node_capacity(const GridShape& shape, const Transfer& transfer, int row, int lateral);
+
 /// True at the nodes in [first_row, node_end) where two fields or more have mass; row after row.
 /// Not collective.
 std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass_lane);

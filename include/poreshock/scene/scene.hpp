@@ -134,10 +134,11 @@ struct Conduction {
   bool operator==(const Conduction&) const = default;
 };
 
-/// Contact between grains.
+/// Contact between grains, and of a grain with itself.
 struct Contact {
   double friction = 0.0;          ///< coefficient of Coulomb friction
   GapTest gap = GapTest::volume;  ///< contact only where the grains fill the space of a node
+  bool self = false;              ///< opposite walls of one grain meet as two grains do
   bool operator==(const Contact&) const = default;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Velocity fields of grains: one for each colour, so that grains that meet can slide and part.
+// Velocity fields of grains: one for each colour, so that grains that meet can slide and part. With
+// self-contact of a single grain: one for each quarter of the plane that its particles face.
 
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "poreshock/output/history.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/physics/grain_contact.hpp"
+#include "poreshock/physics/self_contact.hpp"
 
 namespace poreshock {
 
@@ -27,8 +29,9 @@ struct GrainFields {
   std::vector<VelocityField> fields;  ///< empty with a single colour
   std::vector<std::unique_ptr<SlabGrid>> grids;  ///< those of the colours after the first
   std::optional<FaceTable> faces;
-  std::vector<bool> shared;  ///< nodes where two grains met in this step
-  ContactSummary summary;    ///< of the last step, this rank; nothing before it
+  std::vector<bool> shared;      ///< nodes where two grains met in this step
+  std::vector<NodeSides> sides;  ///< of every node, only with self-contact
+  ContactSummary summary;        ///< of the last step, this rank; nothing before it
 };
 
 template <int Dim>
@@ -54,11 +57,31 @@ void collide(double dt, Simulation<Dim>& sim);
 template <int Dim>
 void finish_contact(Simulation<Dim>& sim);
 
-/// True when the sample has several grains, whether or not they meet.
+/// True when the sample has several grains, whether or not they meet, or self-contact.
 template <int Dim>
-bool has_grains(const Simulation<Dim>& sim) {
-  return sim.grain_fields.grains > 0;
+bool has_contact(const Simulation<Dim>& sim) {
+  return sim.grain_fields.grains > 0 || sim.scene.contact.self;
 }
+
+/// Velocity field of every particle in the last step, before the first one at its start; empty in
+/// scenes without contact.
+template <int Dim>
+std::vector<std::int32_t> particle_colours(const Simulation<Dim>& sim);
+
+/// At the start of a run with self-contact: which way each particle faces. Before: particles
+/// sorted. Collective.
+template <int Dim>
+void mark_surfaces(Simulation<Dim>& sim);
+
+/// Sums of the averages of all fields, before they are divided: shared by those that move as one.
+template <int Dim>
+void share_averages(Simulation<Dim>& sim);
+
+/// With self-contact: puts the nodal sums of all fields on the two of for_each_side, and back.
+template <int Dim>
+void join_fields(Simulation<Dim>& sim);
+template <int Dim>
+void spread_fields(Simulation<Dim>& sim);
 
 /// Contact of the last step over all ranks, for the history. Collective.
 template <int Dim>
@@ -72,6 +95,17 @@ template <int Dim, class Visit>
 void for_each_field(Simulation<Dim>& sim, Visit&& visit) {
   if (sim.grain_fields.fields.empty()) return visit(sim.cells, *sim.grid, sim.averages.get());
   for (VelocityField& field : sim.grain_fields.fields) {
+    visit(field.cells, *field.grid, field.averages);
+  }
+}
+
+/// Calls visit(cells, grid, averages) for every velocity field that moves by itself: all of them,
+/// or the two sides of self-contact.
+template <int Dim, class Visit>
+void for_each_side(Simulation<Dim>& sim, Visit&& visit) {
+  if (!sim.scene.contact.self) return for_each_field(sim, visit);
+  for (int side = 0; side < 2; ++side) {
+    const VelocityField& field = sim.grain_fields.fields[static_cast<std::size_t>(side)];
     visit(field.cells, *field.grid, field.averages);
   }
 }

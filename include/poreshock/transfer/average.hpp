@@ -10,6 +10,23 @@
 
 namespace poreshock {
 
+/// First half of average_pressure: volume and volume x (p + q) of every node, complete. Collective
+/// (one exchange of `averages`).
+template <int Dim>
+void sum_pressure(const Particles<Dim>& particles, const CellOrder& cells, const Transfer& transfer,
+                  SlabGrid& averages);
+
+/// Second half: turns sums of volume x quantity into averages; empty nodes stay zero. Fills
+/// periodic images. Not collective.
+void divide_by_volume(SlabGrid& averages);
+
+/// The halves of average_dilatation; the first is collective (one exchange of `averages`).
+template <int Dim>
+void sum_dilatation(const Particles<Dim>& particles, const CellOrder& cells,
+                    const Transfer& transfer, const SlabGrid& grid, SlabGrid& averages);
+template <int Dim>
+void divide_dilatation(SlabGrid& grid, SlabGrid& averages);
+
 /// Averages p + q of the particles to the nodes, periodic images filled, for particles_to_grid.
 /// Collective (one exchange of `averages`).
 template <int Dim>

@@ -33,6 +33,7 @@ struct SurfaceLane {
   static constexpr int gradient = 1;          ///< m^(Dim-1), sum of V dN/dx_p; Dim numbers
   static constexpr int place = 1 + Dim;       ///< m^(Dim+1), sum of V N (x_p - x_i); Dim numbers
   static constexpr int strain = 1 + 2 * Dim;  ///< m^Dim, sum of V N times the plastic strain
+  static constexpr int facing = 2 + 2 * Dim;  ///< m^Dim, sum of V N times facing; plane strain only
 };
 
 /// What contact did to the grain of one velocity field at a shared node.

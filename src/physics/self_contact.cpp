@@ -1,0 +1,159 @@
+#include "poreshock/physics/self_contact.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "poreshock/core/tensor.hpp"
+#include "poreshock/transfer/node_lanes.hpp"
+
+namespace poreshock {
+
+namespace {
+
+using Surface = SurfaceLane<2>;
+
+constexpr double opposite = -0.5;  // cosine of two mean directions that face each other
+
+Vector<2> direction(const Lanes& lanes) {
+  return {lanes[Surface::facing], lanes[Surface::facing + 1]};
+}
+
+Vector<2> place(const Lanes& lanes) {
+  return {lanes[Surface::place], lanes[Surface::place + 1]};
+}
+
+/// Direction along which the quarters face, whichever way: the first axis of the sum of G G^T / V,
+/// its larger component positive.
+Vector<2> facing_axis(const QuarterSums& quarters) {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const Lanes& q : quarters) {
+    if (!(q[Surface::volume] > 0.0)) continue;
+    const Vector<2> g = direction(q);
+    xx += g[0] * g[0] / q[Surface::volume];
+    xy += g[0] * g[1] / q[Surface::volume];
+    yy += g[1] * g[1] / q[Surface::volume];
+  }
+  const double half = 0.5 * (xx - yy), radius = std::sqrt(half * half + xy * xy);
+  Vector<2> axis{0.0, 1.0};
+  if (half > 0.0) axis = {half + radius, xy};
+  if (half <= 0.0 && radius > 0.0) axis = {xy, radius - half};
+  const double larger = axis[0] * axis[0] > axis[1] * axis[1] ? axis[0] : axis[1];
+  return larger < 0.0 ? Vector<2>(-axis) : axis;
+}
+
+/// Volume, place and direction of the quarters of a side.
+Lanes sum_of(const QuarterSums& quarters, std::uint8_t side) {
+  Lanes sum{};
+  for (std::size_t f = 0; f < quarters.size(); ++f) {
+    if ((side >> f & 1) != 0) sum += quarters[f];
+  }
+  return sum;
+}
+
+bool face_each_other(const Lanes& first, const Lanes& second, const Vector<2>& axis) {
+  const Vector<2> a = direction(first), b = direction(second);
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  if (!(lengths > 0.0) || a.dot(b) > opposite * lengths) return false;
+  // The first side faces along the axis, so the second one must lie there: the two faces of a thin
+  // ligament look away from each other.
+  const Vector<2> way =
+      place(second) / second[Surface::volume] - place(first) / first[Surface::volume];
+  return way.dot(axis) > 0.0;
+}
+
+/// One row of nodes of every quarter.
+struct NodeRows {
+  Lanes* of[facing_quarters];
+};
+
+/// Calls visit(sides, rows, i) for every node with material, i in its row.
+template <class Visit>
+void for_each_node(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids,
+                   Visit&& visit) {
+  const SlabGrid& grid = *grids.front();
+  NodeRows rows;
+  std::size_t node = 0;
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    for (int f = 0; f < facing_quarters; ++f) rows.of[f] = grids[f]->row(row);
+    for (int i = 0; i < grid.shape().row_size; ++i, ++node) {
+      if (sides[node] != NodeSides{}) visit(sides[node], rows, i);
+    }
+  }
+}
+
+Lanes side_sum(std::uint8_t side, const NodeRows& rows, int i) {
+  Lanes sum{};
+  for (int f = 0; f < facing_quarters; ++f) {
+    if ((side >> f & 1) != 0) sum += rows.of[f][i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+NodeSides sides_of_node(const QuarterSums& quarters) {
+  std::uint8_t all = 0;
+  for (std::size_t f = 0; f < quarters.size(); ++f) {
+    if (quarters[f][Surface::volume] > 0.0) all |= static_cast<std::uint8_t>(1U << f);
+  }
+  if ((all & (all - 1)) == 0) return {all, 0};
+  const Vector<2> axis = facing_axis(quarters);
+  NodeSides sides;
+  for (std::size_t f = 0; f < quarters.size(); ++f) {
+    const auto bit = static_cast<std::uint8_t>(1U << f);
+    if ((all & bit) == 0) continue;
+    (direction(quarters[f]).dot(axis) >= 0.0 ? sides.first : sides.second) |= bit;
+  }
+  if (sides.first == 0 || sides.second == 0 ||
+      !face_each_other(sum_of(quarters, sides.first), sum_of(quarters, sides.second), axis)) {
+    return {all, 0};
+  }
+  return sides;
+}
+
+std::vector<NodeSides> find_sides(const std::vector<SlabGrid*>& surfaces) {
+  const SlabGrid& grid = *surfaces.front();
+  const int width = grid.shape().row_size;
+  std::vector<NodeSides> sides;
+  sides.reserve(static_cast<std::size_t>(grid.node_end() - grid.first_row()) * width);
+  QuarterSums quarters;
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    for (int i = 0; i < width; ++i) {
+      for (int f = 0; f < facing_quarters; ++f) quarters[f] = surfaces[f]->row(row)[i];
+      sides.push_back(sides_of_node(quarters));
+    }
+  }
+  return sides;
+}
+
+void share_sums(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
+  for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
+    for (const std::uint8_t side : {node.first, node.second}) {
+      if ((side & (side - 1)) == 0) continue;  // a single quarter keeps its own
+      const Lanes sum = side_sum(side, rows, i);
+      for (int f = 0; f < facing_quarters; ++f) {
+        if ((side >> f & 1) != 0) rows.of[f][i] = sum;
+      }
+    }
+  });
+}
+
+void join_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
+  for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
+    const Lanes first = side_sum(node.first, rows, i), second = side_sum(node.second, rows, i);
+    rows.of[0][i] = first;
+    rows.of[1][i] = second;
+  });
+}
+
+void spread_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
+  for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
+    const Lanes first = rows.of[0][i], second = rows.of[1][i];
+    for (int f = 0; f < facing_quarters; ++f) {
+      rows.of[f][i] =
+          (node.first >> f & 1) != 0 ? first : ((node.second >> f & 1) != 0 ? second : Lanes{});
+    }
+  });
+}
+
+}  // namespace poreshock

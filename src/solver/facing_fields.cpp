@@ -1,0 +1,67 @@
+#include "poreshock/transfer/facing.hpp"
+#include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/surfaces.hpp"
+#include "split_fields.hpp"
+
+namespace poreshock {
+
+template <int Dim>
+void mark_surfaces(Simulation<Dim>& sim) {
+  if (!sim.scene.contact.self) return;
+  SlabGrid& grid = *sim.grid;
+  scatter_surfaces(sim.particles, sim.cells, sim.scene.transfer, grid);
+  grid.exchange();
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    for (int i = 0; i < grid.shape().row_size; ++i) {
+      double& filled = grid.row(row)[i][SurfaceLane<Dim>::volume];
+      filled /= node_capacity(grid.shape(), sim.scene.transfer, row, i);
+    }
+  }
+  grid.fill_periodic_images();
+  find_facing(sim.cells, sim.scene.transfer, grid, sim.particles);
+}
+
+template <int Dim>
+void split_by_facing(Simulation<Dim>& sim) {
+  GrainFields& all = sim.grain_fields;
+  make_fields(facing_quarters, sim);
+  const auto& facing = sim.particles.facing;
+  split(
+      sim.cells, [&](std::uint32_t p) { return facing_quarter(facing[0][p], facing[1][p]); }, all);
+  for (const VelocityField& f : all.fields) {
+    scatter_surfaces(sim.particles, f.cells, sim.scene.transfer, *f.surfaces);
+    f.surfaces->exchange();
+  }
+  all.sides = find_sides(grids_of(all, &VelocityField::surfaces));
+}
+
+template <int Dim>
+void share_averages(Simulation<Dim>& sim) {
+  const GrainFields& all = sim.grain_fields;
+  if (!all.sides.empty()) share_sums(all.sides, grids_of(all, &VelocityField::averages));
+}
+
+template <int Dim>
+void join_fields(Simulation<Dim>& sim) {
+  const GrainFields& all = sim.grain_fields;
+  if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::grid));
+}
+
+template <int Dim>
+void spread_fields(Simulation<Dim>& sim) {
+  const GrainFields& all = sim.grain_fields;
+  if (!all.sides.empty()) spread_sides(all.sides, grids_of(all, &VelocityField::grid));
+}
+
+template void mark_surfaces<2>(Simulation<2>&);
+template void mark_surfaces<3>(Simulation<3>&);
+template void split_by_facing<2>(Simulation<2>&);
+template void split_by_facing<3>(Simulation<3>&);
+template void share_averages<2>(Simulation<2>&);
+template void share_averages<3>(Simulation<3>&);
+template void join_fields<2>(Simulation<2>&);
+template void join_fields<3>(Simulation<3>&);
+template void spread_fields<2>(Simulation<2>&);
+template void spread_fields<3>(Simulation<3>&);
+
+}  // namespace poreshock
