@@ -171,7 +171,7 @@ std::string snapshot_name(std::int64_t record) {
 template <int Dim>
 std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input) {
   std::size_t bytes = 0;
-  for (const DatasetSpec& dataset : file_spec(input, 1, 0).datasets) {
+  for (const DatasetSpec& dataset : file_spec(input, 1, 0, !input.colour.empty()).datasets) {
     if (dataset.path.starts_with(map_folder)) continue;
     const std::uint64_t components = dataset.shape.size() > 1 ? dataset.shape[1] : 1;
     bytes += components * number_size(dataset.type);
