@@ -199,7 +199,7 @@ def sensitivity(page, results, base):
     page.markdown(head, rows)
     page.table("sensitivity", head, rows)
     page.text("All at the end of loading. L per millimetre compares pixels of different size; chi is per pixel of its own. "
-              "Self-contact of void walls is not in the program yet.")
+              "Self-contact of void walls (contact.self) is off in all.")
 
 
 def past_the_paper(page, results, found):
