@@ -42,6 +42,9 @@ linear = 0.0
 quadratic = 0.0
 [time]
 end = 10.0
+sleep = false
+[output]
+beat = 1.0
 )";
 }
 

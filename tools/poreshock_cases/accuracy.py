@@ -137,7 +137,12 @@ GAPS = ("Collapsed voids leave gaps, 3.5 % of the space at 5 um and 0.1 % at 2.5
 ONE = "One sample; those of the coarser cells differ by 4 % (standard deviation) in this figure."
 SCATTER = ("Samples differ by several percent; the mean misses its bar by less than its standard error. Against the "
            "snow-plow of the Up that the material behind the front has, the rise of T is right.")
+RIM = ("What the crossing of cells takes from the stress at the rim of a turning disc is lost for good, less so the finer "
+       "the cells.")
 KNOWN = {
+    ("rotation_cubic_apic", "von_mises_drift_per_turn"): RIM,
+    ("rotation_residual_stress", "von_mises_drift_per_turn"): RIM,
+    ("rotation_residual_stress", "von_mises_drift_per_turn_inner_half"): RIM,
     ("porous Hugoniot, void fraction 0.46, 1100 m/s, 5 um, 4 samples", "Us"): GAPS,
     ("porous Hugoniot, void fraction 0.077, 1100 m/s, 5 um, 4 samples", "rise of mean T"): SCATTER,
     ("porous Hugoniot, void fraction 0.3, 1100 m/s, 5 um, 4 samples", "Us"): SCATTER,
