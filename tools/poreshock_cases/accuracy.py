@@ -121,7 +121,8 @@ def tests(build):
                           check=False)
     # The same test on several numbers of ranks prints the same lines.
     rows = list(dict.fromkeys(parse_verify(done.stdout)))
-    if done.returncode != 0 and all(row.ok for row in rows):
+    # A miss that a test knows does not fail it, so a failure is something else: a limit of time, an error.
+    if done.returncode != 0:
         failed = re.findall(r"^\s*\d+ - (\S+) \(", done.stdout, re.M)
         rows.append(check("tests", "label verification", ", ".join(failed) or f"ctest ended with {done.returncode}",
                           "all pass", False))
