@@ -12,7 +12,7 @@ namespace {
 using test::first_wrong_number;
 using test::numbered_particles;
 
-constexpr ParticleOptions everything{true, true, true, true};
+constexpr ParticleOptions everything{true, true, true, true, true};
 
 template <int Dim>
 std::vector<std::string> column_names(ParticleOptions options) {
@@ -71,8 +71,10 @@ TEST(Columns, HaveTheOrderOfTheCheckpointFormat) {
                                                                    "back_stress2",
                                                                    "back_stress3",
                                                                    "conducted_heat",
-                                                                   "failed"}));
-  EXPECT_EQ(column_names<3>(everything).size(), 3u + 3u + 3u + 9u + 7u + 6u + 6u + 2u);
+                                                                   "failed",
+                                                                   "facing0",
+                                                                   "facing1"}));
+  EXPECT_EQ(column_names<3>(everything).size(), 3u + 3u + 3u + 9u + 7u + 6u + 6u + 2u + 3u);
 }
 
 TEST(Columns, OfUnusedOptionsAreLeftOut) {
