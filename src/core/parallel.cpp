@@ -94,4 +94,11 @@ std::string revision() {
   return PORESHOCK_REVISION;
 }
 
+MPI_Datatype make_unit(std::size_t bytes) {
+  MPI_Datatype unit;
+  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &unit);
+  MPI_Type_commit(&unit);
+  return unit;
+}
+
 }  // namespace poreshock

@@ -28,14 +28,6 @@ void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
   resize(particles, kept);
 }
 
-/// MPI type of one packed particle; the caller frees it.
-MPI_Datatype particle_unit(std::size_t bytes) {
-  MPI_Datatype unit;
-  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &unit);
-  MPI_Type_commit(&unit);
-  return unit;
-}
-
 /// Sends a packed buffer one way and receives the one that comes from the other side.
 std::vector<std::byte> shift(const std::vector<std::byte>& buffer, std::size_t bytes, int to,
                              int from, int tag, MPI_Comm communicator) {
@@ -45,7 +37,7 @@ std::vector<std::byte> shift(const std::vector<std::byte>& buffer, std::size_t b
                          communicator, MPI_STATUS_IGNORE),
             "MPI_Sendrecv of particle counts");
   std::vector<std::byte> received(static_cast<std::size_t>(incoming) * bytes);
-  MPI_Datatype unit = particle_unit(bytes);
+  MPI_Datatype unit = make_unit(bytes);
   check_mpi(MPI_Sendrecv(buffer.data(), static_cast<int>(outgoing), unit, to, tag + 1,
                          received.data(), static_cast<int>(incoming), unit, from, tag + 1,
                          communicator, MPI_STATUS_IGNORE),
@@ -98,7 +90,7 @@ void redistribute(const std::vector<int>& destination, Particles<Dim>& particles
   check_mpi(
       MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator),
       "MPI_Alltoall of particle counts");
-  MPI_Datatype unit = particle_unit(bytes);
+  MPI_Datatype unit = make_unit(bytes);
   std::vector<std::vector<std::byte>> buffers(static_cast<std::size_t>(ranks));
   std::vector<std::vector<std::byte>> arrived(static_cast<std::size_t>(ranks));
   std::vector<MPI_Request> requests;

@@ -41,11 +41,16 @@ Vector<2> facing_axis(const QuarterSums& quarters) {
   return larger < 0.0 ? Vector<2>(-axis) : axis;
 }
 
-/// Volume, place and direction of the quarters of a side.
-Lanes sum_of(const QuarterSums& quarters, std::uint8_t side) {
+bool belongs(int quarter, std::uint8_t side) {
+  return (side >> quarter & 1) != 0;
+}
+
+/// Sum over the quarters of a side, of the lanes that at(quarter) gives.
+template <class At>
+Lanes sum_over(std::uint8_t side, At&& at) {
   Lanes sum{};
-  for (std::size_t f = 0; f < quarters.size(); ++f) {
-    if ((side >> f & 1) != 0) sum += quarters[f];
+  for (int f = 0; f < facing_quarters; ++f) {
+    if (belongs(f, side)) sum += at(f);
   }
   return sum;
 }
@@ -81,12 +86,8 @@ void for_each_node(const std::vector<NodeSides>& sides, const std::vector<SlabGr
   }
 }
 
-Lanes side_sum(std::uint8_t side, const NodeRows& rows, int i) {
-  Lanes sum{};
-  for (int f = 0; f < facing_quarters; ++f) {
-    if ((side >> f & 1) != 0) sum += rows.of[f][i];
-  }
-  return sum;
+Lanes sum_at(const NodeRows& rows, int i, std::uint8_t side) {
+  return sum_over(side, [&](int f) { return rows.of[f][i]; });
 }
 
 }  // namespace
@@ -104,8 +105,9 @@ NodeSides sides_of_node(const QuarterSums& quarters) {
     if ((all & bit) == 0) continue;
     (direction(quarters[f]).dot(axis) >= 0.0 ? sides.first : sides.second) |= bit;
   }
+  const auto of = [&](int f) { return quarters[static_cast<std::size_t>(f)]; };
   if (sides.first == 0 || sides.second == 0 ||
-      !face_each_other(sum_of(quarters, sides.first), sum_of(quarters, sides.second), axis)) {
+      !face_each_other(sum_over(sides.first, of), sum_over(sides.second, of), axis)) {
     return {all, 0};
   }
   return sides;
@@ -130,9 +132,9 @@ void share_sums(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*
   for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
     for (const std::uint8_t side : {node.first, node.second}) {
       if ((side & (side - 1)) == 0) continue;  // a single quarter keeps its own
-      const Lanes sum = side_sum(side, rows, i);
+      const Lanes sum = sum_at(rows, i, side);
       for (int f = 0; f < facing_quarters; ++f) {
-        if ((side >> f & 1) != 0) rows.of[f][i] = sum;
+        if (belongs(f, side)) rows.of[f][i] = sum;
       }
     }
   });
@@ -140,7 +142,7 @@ void share_sums(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*
 
 void join_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
   for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
-    const Lanes first = side_sum(node.first, rows, i), second = side_sum(node.second, rows, i);
+    const Lanes first = sum_at(rows, i, node.first), second = sum_at(rows, i, node.second);
     rows.of[0][i] = first;
     rows.of[1][i] = second;
   });
@@ -150,8 +152,7 @@ void spread_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGri
   for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
     const Lanes first = rows.of[0][i], second = rows.of[1][i];
     for (int f = 0; f < facing_quarters; ++f) {
-      rows.of[f][i] =
-          (node.first >> f & 1) != 0 ? first : ((node.second >> f & 1) != 0 ? second : Lanes{});
+      rows.of[f][i] = belongs(f, node.first) ? first : (belongs(f, node.second) ? second : Lanes{});
     }
   });
 }

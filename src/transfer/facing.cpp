@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poreshock/transfer/average.hpp"
+#include "poreshock/transfer/blocks.hpp"
 #include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {
@@ -17,24 +19,15 @@ constexpr int passes = 2;                 // of the average; two cells or more e
 template <int Dim, class Spline>
 void average_to_nodes(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
                       const std::vector<double>& field, SlabGrid& grid) {
-  scatter<Dim>(
+  scatter_values<Dim, 2>(
       spline, particles, cells,
-      [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
+      [&](std::uint32_t p) {
         const double volume = particles.mass[p] / particles.density[p];
-        const Lanes both{volume, volume * field[p]};
-        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-          sums[n] += node_weight<Dim, Spline>(stencil, n) * both;
-        }
+        return std::array<double, 2>{volume, volume * field[p]};
       },
       grid);
   grid.exchange();
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    Lanes* nodes = grid.row(row);
-    for (int i = 0; i < grid.shape().row_size; ++i) {
-      if (nodes[i][0] > 0.0) nodes[i][1] /= nodes[i][0];
-    }
-  }
-  grid.fill_periodic_images();
+  divide_by_volume(grid);
 }
 
 /// One lane of the nodes at the particles.

@@ -74,8 +74,7 @@ TEST(Conduction, PaperModeKeepsItsPressure) {
 
 TEST(Conduction, LedgerBooksRoundOffOnly) {
   const Simulation<2> sim = run_to(300, conducting);
-  const HistoryRow row =
-      take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
+  const HistoryRow row = stock(sim);
   EXPECT_LT(std::abs(row.conduction), 1e-13 * row.internal);
 }
 

@@ -13,11 +13,6 @@ namespace poreshock::test {
 namespace {
 
 template <int Dim>
-HistoryRow stock(const Simulation<Dim>& sim) {
-  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
-}
-
-template <int Dim>
 double drift_after(const Scene& scene, std::int64_t steps) {
   Simulation<Dim> sim = start<Dim>(scene, MPI_COMM_WORLD);
   const double before = stock(sim).total;

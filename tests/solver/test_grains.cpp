@@ -9,10 +9,6 @@
 namespace poreshock::test {
 namespace {
 
-HistoryRow stock(const Simulation<2>& sim) {
-  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
-}
-
 class GrainsCloseTheEnergy : public ::testing::TestWithParam<std::vector<std::string>> {};
 
 // Impact, friction, walls that rub, more than two grains at a node: every joule has a name.

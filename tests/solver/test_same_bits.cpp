@@ -235,7 +235,7 @@ TEST(SameBits, LedgerAndHistoryRow) {
     on_ranks(ranks, [&](MPI_Comm part) {
       Simulation<2> sim = start<2>(scene, part);
       advance_to(200, 0, sim);
-      row = take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, part);
+      row = stock(sim);
     });
     return from_rank_zero(row);
   };

@@ -11,10 +11,6 @@
 namespace poreshock::test {
 namespace {
 
-HistoryRow stock(const Simulation<2>& sim) {
-  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
-}
-
 class SelfContactClosesTheEnergy : public ::testing::TestWithParam<std::vector<std::string>> {};
 
 // Collapsing voids, walls that rub and that do not: every joule has a name.

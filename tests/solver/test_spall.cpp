@@ -156,16 +156,13 @@ class SpallEnergy : public ::testing::TestWithParam<std::vector<std::string>> {}
 
 TEST_P(SpallEnergy, Closes) {
   Simulation<2> sim = start<2>(plain_scene_of(flyer_text(), GetParam()), MPI_COMM_WORLD);
-  const auto total = [&] {
-    return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
-  };
-  const HistoryRow before = total();
+  const HistoryRow before = stock(sim);
   advance_to(500, 0, sim);
   std::int64_t failed = 0;
   for (const std::int32_t f : sim.particles.failed) failed += f;
   EXPECT_GT(sum(failed, MPI_COMM_WORLD), 10);
   EXPECT_LT(sum(failed, MPI_COMM_WORLD), before.particles / 2);
-  EXPECT_NEAR(total().total / before.total, 1.0, 1e-12);
+  EXPECT_NEAR(stock(sim).total / before.total, 1.0, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -128,4 +128,10 @@ T from_rank_zero(T value) {
   return value;
 }
 
+/// Energies and momentum of all ranks.
+template <int Dim>
+HistoryRow stock(const Simulation<Dim>& sim) {
+  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
+}
+
 }  // namespace poreshock::test

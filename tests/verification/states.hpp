@@ -98,10 +98,6 @@ inline std::unordered_map<std::int64_t, std::size_t> index_by_id(const Simulatio
   return index;
 }
 
-inline HistoryRow stock(const Simulation<2>& sim) {
-  return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
-}
-
 inline const J2MieGruneisen& first_material(const Simulation<2>& sim) {
   return std::get<J2MieGruneisen>(sim.materials.front());
 }

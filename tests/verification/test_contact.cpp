@@ -227,8 +227,7 @@ end = 3.0
 )";
   Simulation<2> sim = start<2>(scene_of(text, {"domain.cell=" + number(cell)}), MPI_COMM_SELF);
   advance_to(1000000, 0, sim);
-  const HistoryRow row =
-      take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, MPI_COMM_SELF);
+  const HistoryRow row = stock(sim);
   momentum = std::max(std::abs(row.momentum[0]), std::abs(row.momentum[1]));
   EXPECT_GT(motion_of(sim.particles, 2).velocity[0], 0.05);  // they have bounced
   return (row.contact_heat + row.friction_heat + row.filter_heat) / row.total;

@@ -40,18 +40,23 @@ void sum(std::vector<std::int64_t>& values, MPI_Comm communicator);
 /// Copies rank 0's text to all ranks. Collective.
 void broadcast(std::string& text, MPI_Comm communicator);
 
-/// What all ranks have, rank after rank; at most 2 GB in all. Collective.
+/// MPI type of so many bytes, so that counts of items stay below 2^31; the caller frees it.
+MPI_Datatype make_unit(std::size_t bytes);
+
+/// What all ranks have, rank after rank; at most 2^31 items in all. Collective.
 template <class Item>
 std::vector<Item> gather_all(const std::vector<Item>& mine, MPI_Comm communicator) {
-  const int bytes = static_cast<int>(mine.size() * sizeof(Item));
+  const int own = static_cast<int>(mine.size());
   std::vector<int> counts(static_cast<std::size_t>(size(communicator))), starts(counts.size(), 0);
-  check_mpi(MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator),
+  check_mpi(MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator),
             "MPI_Allgather");
   for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<Item> all(static_cast<std::size_t>(starts.back() + counts.back()) / sizeof(Item));
-  check_mpi(MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), starts.data(),
-                           MPI_BYTE, communicator),
+  std::vector<Item> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  MPI_Datatype unit = make_unit(sizeof(Item));
+  check_mpi(MPI_Allgatherv(mine.data(), own, unit, all.data(), counts.data(), starts.data(), unit,
+                           communicator),
             "MPI_Allgatherv");
+  MPI_Type_free(&unit);
   return all;
 }
 

@@ -18,8 +18,7 @@ struct Progress {
   double start_wall = 0.0;          ///< s, MPI_Wtime at the start of the run
   std::int64_t start_memory = 0;    ///< bytes, peak_memory at the start of the run
   std::int64_t start_resident = 0;  ///< bytes, resident_memory at the start of the run
-  std::int64_t most_resident =
-      0;  ///< bytes beyond it, of all ranks together at any record or rebalance
+  std::int64_t most_resident = 0;   ///< bytes beyond it, of all ranks at one time
   std::int64_t particle_steps = 0;  ///< of this rank since the start
   std::int64_t sleeping_steps = 0;  ///< those of them in rows asleep
   TimeToGo to_go;                   ///< with the last row
@@ -42,7 +41,8 @@ struct EnergyStatus {
 std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
                          const PhaseTable& phases, Progress& progress, MPI_Comm communicator);
 
-/// Notes the memory that all ranks hold now, if it is the most so far. Collective.
+/// Notes the memory that all ranks hold now, if it is the most so far; called at records and
+/// rebalances. Collective.
 void note_memory(MPI_Comm communicator, Progress& progress);
 
 /// Timings and memory of the whole run; `particles` are this rank's. Collective.
