@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t comment_column = 44;
 constexpr std::size_t numbers_per_line = 10;
 
-std::string quoted(const std::string& text) {
+std::string quoted_text(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -156,13 +156,13 @@ void TomlWriter::flag(const char* key, bool value, const Rule& rule) {
 }
 
 void TomlWriter::text(const char* key, const std::string& value, const Rule& rule) {
-  add(key, {quoted(value), "", "a text"}, rule);
+  add(key, {quoted_text(value), "", "a text"}, rule);
 }
 
 bool TomlWriter::name(const char* key, std::string& value, const std::vector<std::string>& allowed,
                       const Rule& rule) {
   add(key,
-      {quoted(value), value.empty() ? "" : quoted(value),
+      {quoted_text(value), value.empty() ? "" : quoted_text(value),
        allowed.empty() ? "a name" : allowed_names(allowed)},
       rule);
   if (keys_ != nullptr && governs_others(key)) {
@@ -174,7 +174,7 @@ bool TomlWriter::name(const char* key, std::string& value, const std::vector<std
 void TomlWriter::names(const char* key, const std::vector<std::string>& value,
                        const std::vector<std::string>& allowed, const Rule& rule) {
   add(key,
-      {list_text(value.size(), [&](std::size_t i) { return quoted(value[i]); }), "",
+      {list_text(value.size(), [&](std::size_t i) { return quoted_text(value[i]); }), "",
        "an array of names out of " + allowed_names(allowed)},
       rule);
 }

@@ -13,12 +13,8 @@ function(steps program out)
   set(${out} "${text}" PARENT_SCOPE)
 endfunction()
 
-# compare(name program flag...): skips a program that is not asked for or whose flags the processor
-# lacks.
+# compare(name program flag...): skips a program whose flags the processor lacks.
 function(compare name program)
-  if(NOT program)
-    return()
-  endif()
   foreach(flag IN LISTS ARGN)
     if(NOT flag IN_LIST processor_flags)
       message("${name}: not run, this processor has no ${flag}")
