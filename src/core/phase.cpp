@@ -42,6 +42,12 @@ void release_freed_memory() {
 #endif
 }
 
+double seconds_in(const PhaseTable& table, std::initializer_list<PhaseName> phases) {
+  double sum = 0.0;
+  for (const PhaseName phase : phases) sum += table.seconds[static_cast<std::size_t>(phase)];
+  return sum;
+}
+
 PhaseTable make_phase_table() {
   PhaseTable table;
   PetscClassId id = 0;

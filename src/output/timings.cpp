@@ -59,6 +59,7 @@ void write_timings(const std::string& path, const Timings& timings, MPI_Comm com
                        ",\n  \"steps\": " + std::to_string(timings.steps) +
                        ",\n  \"particle_steps\": " + std::to_string(timings.particle_steps) +
                        ",\n  \"sleeping_steps\": " + std::to_string(timings.sleeping_steps) +
+                       ",\n  \"cuts\": " + std::to_string(timings.cuts) +
                        ",\n  \"bytes_per_particle\": " + json(timings.bytes_per_particle) +
                        ",\n  \"bytes_per_particle_at_once\": " + json(timings.bytes_at_once) +
                        ",\n  \"rate_per_core\": " + json(timings.rate_per_core) +

@@ -55,6 +55,70 @@ bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
   return true;
 }
 
+/// Predicted seconds of a step per row, the same on all ranks. Collective.
+template <int Dim>
+std::vector<double> row_seconds(const Simulation<Dim>& sim) {
+  const GridShape shape = make_grid_shape(sim.scene);
+  const double inverse_cell = 1.0 / shape.cell;
+  std::vector<std::int64_t> particles(static_cast<std::size_t>(shape.rows), 0);
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    ++particles[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, shape, inverse_cell))];
+  }
+  sum(particles, sim.communicator);
+  std::vector<std::int64_t> contact_nodes;
+  // The nodes of the last step, on the slabs of the last step.
+  if (sim.grid && has_contact(sim)) {
+    contact_nodes.assign(particles.size(), 0);
+    const std::vector<bool>& shared = sim.grain_fields.shared;
+    const auto width = static_cast<std::size_t>(shape.row_size);
+    for (std::size_t node = 0; node < shared.size(); ++node) {
+      const std::size_t row = static_cast<std::size_t>(sim.grid->first_row()) + node / width;
+      if (row < static_cast<std::size_t>(sim.grid->last_row()) && shared[node]) {
+        ++contact_nodes[row];
+      }
+    }
+    sum(contact_nodes, sim.communicator);
+  }
+  return predicted_row_seconds(particles, contact_nodes, sim.cells.awake, sim.work.unit_seconds);
+}
+
+/// Gives each rank its slab, grids and particles; empty `starts` are found from what is known.
+template <int Dim>
+void cut_slabs(std::vector<int> starts, Simulation<Dim>& sim) {
+  const double begin = MPI_Wtime();
+  {
+    const Phase phase(sim.phases, PhaseName::rebalance);
+    const GridShape shape = make_grid_shape(sim.scene);
+    const double inverse_cell = 1.0 / shape.cell;
+    if (starts.empty()) {
+      starts = partition_rows(row_seconds(sim), size(sim.communicator), slab_limits(shape));
+    }
+    release_fields(sim.grain_fields);
+    sim.grid.reset();
+    sim.averages.reset();
+    sim.heat.reset();
+    sim.grid = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+    if (sim.scene.transfer.averaging > 0.0) {
+      sim.averages = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+    }
+    if (conducts_heat(sim.scene)) {
+      sim.heat = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+    }
+    std::vector<int> destination(sim.particles.size());
+    for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+      destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, shape, inverse_cell));
+    }
+    redistribute(destination, sim.particles, sim.communicator);
+    release_spare(sim.particles);
+    release_freed_memory();
+  }
+  sim.work.lost = 0.0;
+  sim.work.cut_seconds = MPI_Wtime() - begin;
+  check_mpi(
+      MPI_Allreduce(MPI_IN_PLACE, &sim.work.cut_seconds, 1, MPI_DOUBLE, MPI_MAX, sim.communicator),
+      "MPI_Allreduce of the seconds of a cut");
+}
+
 }  // namespace
 
 template <int Dim>
@@ -106,51 +170,60 @@ void migrate(Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void rebalance(double least_gain, Simulation<Dim>& sim) {
-  const Phase phase(sim.phases, PhaseName::rebalance);
-  const GridShape shape = make_grid_shape(sim.scene);
-  const double inverse_cell = 1.0 / shape.cell;
-  std::vector<std::int64_t> count(static_cast<std::size_t>(shape.rows), 0);
-  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
-    ++count[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, shape, inverse_cell))];
+void distribute(Simulation<Dim>& sim) {
+  cut_slabs({}, sim);
+}
+
+template <int Dim>
+void count_work(Simulation<Dim>& sim) {
+  const auto add = [&](Work kind, double units) {
+    sim.work.done[static_cast<std::size_t>(kind)] += units;
+  };
+  const double all = static_cast<double>(sim.particles.size());
+  const double asleep = static_cast<double>(sleeping_particles(sim));
+  add(Work::particle, all - asleep + sleeping_weight * asleep);
+  add(Work::recorded_particle, all);
+  if (!sim.grain_fields.fields.empty()) {
+    const std::vector<bool>& shared = sim.grain_fields.shared;
+    add(Work::contact_node, static_cast<double>(std::ranges::count(shared, true)));
   }
-  sum(count, sim.communicator);
-  std::vector<double> weights(count.begin(), count.end());
-  const RowRange awake = sim.cells.awake;  // of the last step
-  for (int row = 0; row < shape.rows; ++row) {
-    const bool asleep = row < awake.first || row >= awake.last;
-    weights[static_cast<std::size_t>(row)] *= asleep ? sleeping_weight : 1.0;
+}
+
+template <int Dim>
+void rebalance(Simulation<Dim>& sim) {
+  WorkMeter& work = sim.work;
+  const std::int64_t steps = sim.clock.step - work.measured_step;
+  if (size(sim.communicator) == 1 || steps == 0) return;
+  std::vector<double> weights;
+  std::vector<int> best;
+  {
+    const Phase phase(sim.phases, PhaseName::rebalance);
+    const PerWork<double> seconds = work_seconds(sim.phases);
+    PerWork<double> since = seconds;
+    for (std::size_t k = 0; k < since.size(); ++k) since[k] -= work.seconds[k];
+    work.unit_seconds =
+        measured_unit_seconds(work.done, since, work.unit_seconds, sim.communicator);
+    work.seconds = seconds;
+    work.done = {};
+    work.measured_step = sim.clock.step;
+    weights = row_seconds(sim);
+    best = partition_rows(weights, size(sim.communicator), slab_limits(sim.grid->shape()));
   }
-  std::vector<int> starts = partition_rows(weights, size(sim.communicator), slab_limits(shape));
-  if (sim.grid) {
-    const double now = heaviest(weights, sim.grid->starts());
-    if (heaviest(weights, starts) > (1.0 - least_gain) * now) return;
-    release_fields(sim.grain_fields);
-    sim.grid.reset();
-    sim.averages.reset();
-    sim.heat.reset();
+  if (cutting_pays(heaviest(weights, sim.grid->starts()), heaviest(weights, best), steps, work)) {
+    cut_slabs(best, sim);
+    ++work.cuts;
   }
-  sim.grid = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
-  if (sim.scene.transfer.averaging > 0.0) {
-    sim.averages = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
-  }
-  if (conducts_heat(sim.scene)) {
-    sim.heat = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
-  }
-  std::vector<int> destination(sim.particles.size());
-  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
-    destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, shape, inverse_cell));
-  }
-  redistribute(destination, sim.particles, sim.communicator);
-  release_spare(sim.particles);
-  release_freed_memory();
 }
 
 template void sort_particles<2>(Simulation<2>&);
 template void sort_particles<3>(Simulation<3>&);
 template void migrate<2>(Simulation<2>&);
 template void migrate<3>(Simulation<3>&);
-template void rebalance<2>(double, Simulation<2>&);
-template void rebalance<3>(double, Simulation<3>&);
+template void distribute<2>(Simulation<2>&);
+template void distribute<3>(Simulation<3>&);
+template void count_work<2>(Simulation<2>&);
+template void count_work<3>(Simulation<3>&);
+template void rebalance<2>(Simulation<2>&);
+template void rebalance<3>(Simulation<3>&);
 
 }  // namespace poreshock

@@ -10,20 +10,15 @@ namespace poreshock {
 
 namespace {
 
-double seconds(const PhaseTable& phases, std::initializer_list<PhaseName> names) {
-  double sum = 0.0;
-  for (const PhaseName name : names) sum += phases.seconds[static_cast<std::size_t>(name)];
-  return sum;
-}
-
 double communication(const PhaseTable& phases) {
-  return seconds(phases, {PhaseName::exchange, PhaseName::migrate, PhaseName::time_step});
+  return seconds_in(phases, {PhaseName::exchange, PhaseName::migrate, PhaseName::time_step});
 }
 
 double compute(const PhaseTable& phases) {
-  return seconds(phases, {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::average,
-                          PhaseName::grid_update, PhaseName::contact, PhaseName::grid_to_particles,
-                          PhaseName::conduction, PhaseName::stress});
+  return seconds_in(
+      phases,
+      {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::average, PhaseName::grid_update,
+       PhaseName::contact, PhaseName::grid_to_particles, PhaseName::conduction, PhaseName::stress});
 }
 
 std::string duration(double s) {
@@ -39,8 +34,8 @@ std::string duration(double s) {
 }
 
 double recording(const PhaseTable& phases) {
-  return seconds(phases, {PhaseName::morphology, PhaseName::profile, PhaseName::history,
-                          PhaseName::snapshot, PhaseName::checkpoint});
+  return seconds_in(phases, {PhaseName::morphology, PhaseName::profile, PhaseName::history,
+                             PhaseName::snapshot, PhaseName::checkpoint});
 }
 
 }  // namespace
@@ -86,14 +81,15 @@ void note_memory(MPI_Comm communicator, Progress& progress) {
   progress.most_resident = std::max(progress.most_resident, now);
 }
 
-Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t particles,
-                      const Progress& progress, MPI_Comm communicator) {
+Timings final_timings(const Clock& clock, const PhaseTable& phases, const WorkMeter& work,
+                      std::int64_t particles, const Progress& progress, MPI_Comm communicator) {
   Timings timings;
   timings.ranks = size(communicator);
   timings.wall_seconds = MPI_Wtime() - progress.start_wall;
   timings.steps = clock.step - progress.to_go.start.step;
   timings.particle_steps = sum(progress.particle_steps, communicator);
   timings.sleeping_steps = sum(progress.sleeping_steps, communicator);
+  timings.cuts = work.cuts;
   timings.rate_per_core = timings.wall_seconds > 0.0 ? static_cast<double>(timings.particle_steps) /
                                                            (timings.wall_seconds * timings.ranks)
                                                      : 0.0;
@@ -125,6 +121,12 @@ std::string timings_table(const Timings& timings) {
                   "%.0f %% of them in rows that no wave had reached, which only move\n",
                   100.0 * static_cast<double>(timings.sleeping_steps) /
                       static_cast<double>(timings.particle_steps));
+    table += line;
+  }
+  if (timings.cuts > 0) {
+    std::snprintf(line, sizeof line,
+                  "the slabs of the ranks were cut anew %lld times as the work moved\n",
+                  static_cast<long long>(timings.cuts));
     table += line;
   }
   std::snprintf(line, sizeof line,

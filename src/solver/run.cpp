@@ -22,7 +22,6 @@ namespace poreshock {
 namespace {
 
 constexpr std::int64_t rebalance_interval = 100;
-constexpr double least_rebalance_gain = 0.05;
 constexpr double seconds_between_rows = 2.0;
 
 template <int Dim>
@@ -83,7 +82,7 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   const bool stop_asked = synchronise(options, progress, sim);
   migrate(sim);
   const bool may_rebalance = sim.clock.step % rebalance_interval == 0;
-  if (may_rebalance) rebalance(least_rebalance_gain, sim);
+  if (may_rebalance) rebalance(sim);
   if (may_rebalance || sim.clock.on_beat) note_memory(sim.communicator, progress);
   return stop_asked;
 }
@@ -92,8 +91,8 @@ template <int Dim>
 void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
             Progress& progress) {
   const std::uint64_t bits = checksum(sim);
-  const Timings timings = final_timings(sim.clock, sim.phases, std::ssize(sim.particles.id),
-                                        progress, sim.communicator);
+  const Timings timings = final_timings(sim.clock, sim.phases, sim.work,
+                                        std::ssize(sim.particles.id), progress, sim.communicator);
   try {
     write_timings(options.folder + "/timings.json", timings, sim.communicator);
   } catch (const SystemError& failure) {

@@ -177,6 +177,7 @@ void advance(Simulation<Dim>& sim, double dt) {
     });
   });
   move_sleeping(dt, sim);
+  count_work(sim);
   // Those asleep are still in the state that the first limit comes from.
   if (sleeping_particles(sim) > 0)
     report.dt_limit = std::min(report.dt_limit, sim.clock.first_limit);

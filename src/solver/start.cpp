@@ -78,7 +78,7 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
             report);
   sim.sample = total(report, communicator);
   find_grains(sim);
-  rebalance(0.0, sim);
+  distribute(sim);
   if (has_contact(sim)) {
     sort_particles(sim);
     mark_surfaces(sim);
@@ -109,6 +109,7 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
                      std::to_string(run_state_integers(sim)) + "; restart with that version");
   }
   sim.clock.step = state.step;
+  sim.work.measured_step = state.step;
   sim.clock.time = state.time;
   sim.clock.allowed = state.last_dt;
   sim.clock.beat = state.beat;
@@ -120,7 +121,7 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   find_grains(sim);
-  rebalance(0.0, sim);
+  distribute(sim);
   sim.clock.disturbed = disturbed_rows(sim);
   agree_on_step(false, sim.clock, communicator);
   return sim;

@@ -104,7 +104,7 @@ void advance_to(std::int64_t step, std::int64_t rebalance_every, Simulation<Dim>
     advance(sim, dt);
     tick(sim.scene, dt, sim.clock);
     migrate(sim);
-    if (rebalance_every > 0 && sim.clock.step % rebalance_every == 0) rebalance(-1.0, sim);
+    if (rebalance_every > 0 && sim.clock.step % rebalance_every == 0) distribute(sim);
   }
 }
 

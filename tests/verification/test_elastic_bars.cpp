@@ -105,7 +105,7 @@ TEST(ElasticBar, GivesItsVelocityToAnEqualOne) {
     const bool upper = site(sim, p)[1] > 0.5 * length;
     sim.particles.velocity[1][p] = upper ? -speed : 0.0;
   }
-  rebalance(0.0, sim);
+  distribute(sim);
   const double c = longitudinal_sound_speed(sim.materials[0]);
   const std::int64_t half = 200;
   const double dt = 0.5 * length / c / static_cast<double>(half);

@@ -39,7 +39,7 @@ std::unordered_map<std::int64_t, State> run_changed(const Scene& scene, std::int
     std::int64_t& id = sim.particles.id[p];
     id = id / columns * columns + place;
   }
-  rebalance(0.0, sim);
+  distribute(sim);
   advance_to(steps, 0, sim);
   std::unordered_map<std::int64_t, State> states;
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {

@@ -1,11 +1,16 @@
-"""Speed of the whole step: rates, phases and memory of schemes on one scene while the shock is on its way."""
+"""Speed of the whole step on the scenes of input/bench: rates, phases, memory and instructions."""
 import csv
+import os
+import re
+import subprocess
 from dataclasses import dataclass
+from pathlib import Path
 
-from poreshock_cases.program import CaseError
+from poreshock_cases.program import ROOT, CaseError, Run
 
-START, END = 300e-9, 500e-9  # s, the part of the run that is timed
 QUIET = ("output.snapshot=1.0", "morphology.every=0.0", "profile.every=0.0")
+# Above it glibc clears memory by one instruction per byte as valgrind counts them.
+PLAIN_CLEARING = "glibc.cpu.x86_rep_stosb_threshold=1000000000"
 
 
 @dataclass(frozen=True)
@@ -14,6 +19,18 @@ class Scheme:
     name: str
     settings: tuple[str, ...]
 
+
+@dataclass(frozen=True)
+class Bench:
+    """A scene and the part of its run that is timed, s."""
+    scene: str
+    start: float
+    end: float
+
+
+POROUS = Bench("bench/porous.toml", 300e-9, 500e-9)
+WIDE = Bench("paper/fig1_coarse.toml", 300e-9, 500e-9)
+OTHERS = (Bench("bench/grains.toml", 50e-9, 80e-9), Bench("bench/porous_3d.toml", 60e-9, 80e-9))
 
 SCHEMES = (
     Scheme("default", ()),
@@ -29,47 +46,79 @@ SCHEMES = (
 
 @dataclass(frozen=True)
 class Timing:
-    """What one scheme took between START and END."""
+    """What one scheme took on one scene."""
+    scene: str
     scheme: str
     ranks: int
     particles: float
     rate: float  # million particle-steps per second and core
+    memory: float  # bytes per particle, all in, at one time
+    instructions: float | None  # per particle-step, of the time loop on one rank
     phases: dict  # ns per particle-step and core
 
     def row(self):
-        return {"scheme": self.scheme, "ranks": self.ranks, "particles": round(self.particles),
-                "rate [1e6/s/core]": f"{self.rate:.2f}",
+        return {"scene": self.scene, "scheme": self.scheme, "ranks": self.ranks, "particles": round(self.particles),
+                "rate [1e6/s/core]": f"{self.rate:.2f}", "memory [bytes/particle]": round(self.memory),
+                "instructions [1/particle-step]": "" if self.instructions is None else round(self.instructions),
                 **{f"{name} [ns]": f"{value:.2f}" for name, value in self.phases.items()}}
 
 
-def timing(lab, scheme, scene, extra, sleep):
-    """Runs to START, then times from its checkpoint to END; the best of three."""
-    name = scheme.name.replace(" ", "_").replace(",", "").replace("(", "").replace(")", "")
-    settings = (*scheme.settings, *extra, *QUIET, f"time.sleep={'true' if sleep else 'false'}")
-    first = lab.run(f"{name}_start", scene, *settings, f"time.end={START!r}", f"checkpoint.every_time={START!r}")
+def count_instructions(lab, folder, bench, settings, checkpoint):
+    """Instructions per particle-step between two lengths of a run, as callgrind counts them."""
+    counts, steps = [], []
+    for k, share in enumerate((0.01, 0.03)):
+        output, end = folder / f"count_{k}", bench.start + share * (bench.end - bench.start)
+        command = [ROOT / "tools/mpirun", "-n", 1, "valgrind", "--tool=callgrind",
+                   f"--callgrind-out-file={folder / 'callgrind.out'}", "--toggle-collect=void poreshock::advance<*",
+                   lab.program, "run", ROOT / "input" / bench.scene, "--output", output, "--force", "--quiet",
+                   "--restart", checkpoint]
+        for setting in (*settings, f"time.end={end!r}", "checkpoint.every_time=0.0"):
+            command += ["--set", setting]
+        done = subprocess.run([str(part) for part in command], text=True, capture_output=True, check=False,
+                              env=os.environ | {"GLIBC_TUNABLES": PLAIN_CLEARING})
+        found = re.search(r"Collected : (\d+)", done.stderr)
+        if done.returncode != 0 or found is None:
+            raise CaseError(f"{output}: callgrind ended with {done.returncode}: {done.stderr.strip()}")
+        counts.append(int(found[1]))
+        steps.append(Run(output, 0, "").timings["particle_steps"])
+    return (counts[1] - counts[0]) / (steps[1] - steps[0])
+
+
+def timing(lab, scheme, bench, sleep=False, instructions=False):
+    """Runs to the start, then times from its checkpoint to the end; the best of three."""
+    scene = Path(bench.scene).stem
+    name = f"{scene}_{scheme.name}".replace(" ", "_").replace(",", "").replace("(", "").replace(")", "")
+    settings = (*scheme.settings, *QUIET, f"time.sleep={'true' if sleep else 'false'}")
+    first = lab.run(f"{name}_start", bench.scene, *settings, f"time.end={bench.start!r}",
+                    f"checkpoint.every_time={bench.start!r}")
     checkpoints = sorted(first.folder.glob("checkpoint_*.h5"))
     if not checkpoints:
-        raise CaseError(f"{first.folder}: no checkpoint at {START} s")
-    runs = [lab.run(f"{name}_{k}", scene, *settings, f"time.end={END!r}", "checkpoint.every_time=0.0",
+        raise CaseError(f"{first.folder}: no checkpoint at {bench.start} s")
+    runs = [lab.run(f"{name}_{k}", bench.scene, *settings, f"time.end={bench.end!r}", "checkpoint.every_time=0.0",
                     restart=checkpoints[-1]) for k in range(3)]
     best = max((run.timings for run in runs), key=lambda t: t["rate_per_core"])
+    count = None
+    if instructions:
+        count = count_instructions(lab, first.folder.parent, bench, settings, checkpoints[-1])
     steps = best["particle_steps"] / best["ranks"]
     phases = {phase["name"]: 1e9 * phase["avg"] / steps for phase in best["phases"]
               if phase["avg"] > 0.01 * best["wall_seconds"]}
-    return Timing(scheme.name, best["ranks"], best["particle_steps"] / best["steps"],
-                  1e-6 * best["rate_per_core"], phases)
+    return Timing(scene, scheme.name, best["ranks"], best["particle_steps"] / best["steps"],
+                  1e-6 * best["rate_per_core"], best["bytes_per_particle_at_once"], count, phases)
 
 
 def markdown(timings):
     """Table of rates, and of the phases above 1 % in ns per particle-step and core."""
     names = sorted({name for t in timings for name in t.phases},
                    key=lambda name: -max(t.phases.get(name, 0.0) for t in timings))
-    lines = ["| scheme | ranks | particles | million particle-steps/s/core | " + " | ".join(names) + " |",
-             "|---" * (4 + len(names)) + "|"]
+    lines = ["| scene | scheme | ranks | particles | million particle-steps/s/core | bytes per particle "
+             "| instructions | " + " | ".join(names) + " |", "|---" * (7 + len(names)) + "|"]
     for t in timings:
         cells = [f"{t.phases[name]:.1f}" if name in t.phases else "" for name in names]
-        lines.append(f"| {t.scheme} | {t.ranks} | {t.particles:.0f} | {t.rate:.2f} | " + " | ".join(cells) + " |")
-    return "\n".join([*lines, "", "Phases in ns per particle-step and core.", ""])
+        count = "" if t.instructions is None else f"{t.instructions:.0f}"
+        lines.append(f"| {t.scene} | {t.scheme} | {t.ranks} | {t.particles:.0f} | {t.rate:.2f} | {t.memory:.0f} "
+                     f"| {count} | " + " | ".join(cells) + " |")
+    return "\n".join([*lines, "", "Phases in ns per particle-step and core, instructions per particle-step.", ""])
 
 
 def write_csv(timings, path):

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 namespace poreshock {
@@ -53,6 +54,9 @@ std::int64_t resident_memory();
 /// Gives freed memory back to the system, where the library can: freed particles of a rebalance
 /// would else stay with the rank that sent them away. Not collective.
 void release_freed_memory();
+
+/// Seconds this rank has spent in some phases together.
+double seconds_in(const PhaseTable& table, std::initializer_list<PhaseName> phases);
 
 /// Makes a table and registers its PETSc log events. Collective.
 PhaseTable make_phase_table();

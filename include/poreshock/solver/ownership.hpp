@@ -16,10 +16,18 @@ void sort_particles(Simulation<Dim>& sim);
 template <int Dim>
 void migrate(Simulation<Dim>& sim);
 
-/// Cuts the rows anew by their particles and moves the particles to their ranks, from anywhere.
-/// With `least_gain` the cut stays unless the heaviest slab becomes lighter by that share.
-/// Collective.
+/// At the start: cuts the rows into slabs by their particles, makes the grids, and moves the
+/// particles to their ranks, from anywhere. Collective.
 template <int Dim>
-void rebalance(double least_gain, Simulation<Dim>& sim);
+void distribute(Simulation<Dim>& sim);
+
+/// Measures what the work of the last steps cost, and cuts the slabs anew where the predicted gain
+/// exceeds what it costs. Collective.
+template <int Dim>
+void rebalance(Simulation<Dim>& sim);
+
+/// Adds what this rank did in a step to its meter. Not collective.
+template <int Dim>
+void count_work(Simulation<Dim>& sim);
 
 }  // namespace poreshock

@@ -8,6 +8,7 @@
 
 #include "poreshock/core/phase.hpp"
 #include "poreshock/output/timings.hpp"
+#include "poreshock/solver/row_cost.hpp"
 #include "poreshock/solver/time_step.hpp"
 #include "poreshock/solver/time_to_go.hpp"
 
@@ -46,8 +47,8 @@ std::string progress_row(const Clock& clock, double end, const EnergyStatus& ene
 void note_memory(MPI_Comm communicator, Progress& progress);
 
 /// Timings and memory of the whole run; `particles` are this rank's. Collective.
-Timings final_timings(const Clock& clock, const PhaseTable& phases, std::int64_t particles,
-                      const Progress& progress, MPI_Comm communicator);
+Timings final_timings(const Clock& clock, const PhaseTable& phases, const WorkMeter& work,
+                      std::int64_t particles, const Progress& progress, MPI_Comm communicator);
 
 /// Table of phases: least, mean and largest seconds over the ranks, share of the whole.
 std::string timings_table(const Timings& timings);

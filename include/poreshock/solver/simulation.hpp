@@ -15,6 +15,7 @@
 #include "poreshock/sample/fill.hpp"
 #include "poreshock/solver/grain_fields.hpp"
 #include "poreshock/solver/ledger.hpp"
+#include "poreshock/solver/row_cost.hpp"
 #include "poreshock/solver/time_step.hpp"
 #include "poreshock/transfer/step_data.hpp"
 
@@ -43,6 +44,7 @@ struct Simulation {
   HeatFlow<Dim> heat_flow;             ///< empty without heat conduction
   double conduction_limit = 0.0;       ///< s, infinite without heat conduction
   PhaseTable phases;
+  WorkMeter work;
   SampleReport sample;
 };
 

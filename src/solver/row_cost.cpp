@@ -1,0 +1,69 @@
+#include "poreshock/solver/row_cost.hpp"
+
+#include <limits>
+
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/solver/sleep.hpp"
+
+namespace poreshock {
+
+PerWork<double> work_seconds(const PhaseTable& phases) {
+  PerWork<double> seconds{};
+  const auto add = [&](Work kind, std::initializer_list<PhaseName> names) {
+    seconds[static_cast<std::size_t>(kind)] = seconds_in(phases, names);
+  };
+  add(Work::particle, {PhaseName::sort, PhaseName::filter, PhaseName::particles_to_grid,
+                       PhaseName::average, PhaseName::grid_update, PhaseName::grid_to_particles,
+                       PhaseName::remap, PhaseName::conduction, PhaseName::stress});
+  add(Work::contact_node, {PhaseName::contact});
+  add(Work::recorded_particle, {PhaseName::morphology, PhaseName::profile, PhaseName::snapshot});
+  return seconds;
+}
+
+PerWork<double> measured_unit_seconds(const PerWork<double>& done, const PerWork<double>& seconds,
+                                      const PerWork<double>& before, MPI_Comm communicator) {
+  const int kinds = static_cast<int>(done.size());
+  PerWork<double> mean = done;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, mean.data(), kinds, MPI_DOUBLE, MPI_SUM, communicator),
+            "MPI_Allreduce of work");
+  PerWork<double> least;
+  for (std::size_t k = 0; k < done.size(); ++k) {
+    mean[k] /= size(communicator);
+    // The mean of equal numbers may come out a rounding above them.
+    const bool busy = done[k] > 0.0 && done[k] >= mean[k] * (1.0 - 1e-9);
+    least[k] = busy ? seconds[k] / done[k] : std::numeric_limits<double>::infinity();
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, least.data(), kinds, MPI_DOUBLE, MPI_MIN, communicator),
+            "MPI_Allreduce of seconds per unit of work");
+  for (std::size_t k = 0; k < done.size(); ++k) {
+    if (!(mean[k] > 0.0)) least[k] = before[k];
+  }
+  return least;
+}
+
+std::vector<double> predicted_row_seconds(const std::vector<std::int64_t>& particles,
+                                          const std::vector<std::int64_t>& contact_nodes,
+                                          RowRange awake, const PerWork<double>& unit_seconds) {
+  const auto unit = [&](Work kind) { return unit_seconds[static_cast<std::size_t>(kind)]; };
+  const double computed = unit(Work::particle) > 0.0 ? unit(Work::particle) : 1.0;
+  std::vector<double> weights;
+  weights.reserve(particles.size());
+  for (int row = 0; row < static_cast<int>(particles.size()); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    const bool asleep = row < awake.first || row >= awake.last;
+    const double each = computed * (asleep ? sleeping_weight : 1.0) + unit(Work::recorded_particle);
+    double weight = each * static_cast<double>(particles[at]);
+    if (!contact_nodes.empty()) {
+      weight += unit(Work::contact_node) * static_cast<double>(contact_nodes[at]);
+    }
+    weights.push_back(weight);
+  }
+  return weights;
+}
+
+bool cutting_pays(double now, double best, std::int64_t steps, WorkMeter& meter) {
+  meter.lost += (now - best) * static_cast<double>(steps);
+  return best < now && meter.lost > meter.cut_seconds;
+}
+
+}  // namespace poreshock
