@@ -16,7 +16,8 @@ namespace {
 /// whose heat has no small number of quanta, the quanta of the others, and the bits of the least
 /// limit.
 struct BlockSums {
-  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0, quanta = 0;
+  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0;
+  std::uint64_t quanta = 0;  ///< two's complement; it may wrap where large > 0 and is not used then
   std::int64_t least = std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
 };
 
@@ -43,7 +44,7 @@ struct BlockSums {
     const double scaled = r.viscous[k] * inverse_quantum;
     s.large += (scaled < 0x1p51) & (scaled > -0x1p51) ? 0 : 1;
     s.quanta +=
-        std::bit_cast<std::int64_t>(scaled + rounder) - std::bit_cast<std::int64_t>(rounder);
+        std::bit_cast<std::uint64_t>(scaled + rounder) - std::bit_cast<std::uint64_t>(rounder);
   }
   return s;
 }
@@ -56,7 +57,7 @@ void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, d
   report.sound_speed_guard += s.slow;
   report.dt_limit = std::min(report.dt_limit, std::bit_cast<double>(s.least));
   if (s.large == 0) {
-    report.viscous_heat += s.quanta;
+    report.viscous_heat += static_cast<std::int64_t>(s.quanta);
     return;
   }
   for (std::size_t k = 0; k < count; ++k) {
