@@ -108,9 +108,6 @@ struct Measured {
 template <int Dim>
 Measured measure_map(StoredMap<Dim> stored, Request request, MPI_Comm communicator) {
   request.what.name = stored.field;
-  if (Dim == 3 && request.options.isoline) {
-    throw InputError("--isoline: found a map of three dimensions, allowed two");
-  }
   if (!request.shares.empty()) {
     request.what.thresholds = quantiles<Dim>(stored.map, 0, request.shares, communicator);
   }

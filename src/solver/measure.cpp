@@ -6,6 +6,7 @@
 #include "poreshock/morphology/analysis.hpp"
 #include "poreshock/morphology/domains.hpp"
 #include "poreshock/morphology/isoline.hpp"
+#include "poreshock/morphology/isosurface.hpp"
 #include "poreshock/morphology/voids.hpp"
 
 namespace poreshock {
@@ -76,13 +77,20 @@ void treat_voids(const PixelField<Dim>& map, std::size_t field, MapVoids voids,
   curve(Dim == 2 ? "chi4" : "chi6", record) = std::move(density.faces);
 }
 
-void append_isoline(const PixelField<2>& map, std::size_t field, MPI_Comm communicator,
-                    MorphologyRecord& record) {
-  Curve length{"L_isoline", isoline_lengths(map, field, record.threshold, communicator)};
-  for (double& value : length.values) {
+/// The interpolated boundary per pixel.
+template <int Dim>
+void append_interpolated(const PixelField<Dim>& map, std::size_t field, MPI_Comm communicator,
+                         MorphologyRecord& record) {
+  Curve boundary;
+  if constexpr (Dim == 2) {
+    boundary = {"L_isoline", isoline_lengths(map, field, record.threshold, communicator)};
+  } else {
+    boundary = {"S_isosurface", isosurface_areas(map, field, record.threshold, communicator)};
+  }
+  for (double& value : boundary.values) {
     value = record.pixels > 0 ? value / static_cast<double>(record.pixels) : 0.0;
   }
-  record.functionals.push_back(std::move(length));
+  record.functionals.push_back(std::move(boundary));
 }
 
 /// Beside each functional that counts pixels to the power -k, the same per metre to that power.
@@ -144,10 +152,8 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
   record.threshold = what.thresholds;
   append_counts(count<Dim>(map, field, what.thresholds, communicator), record);
   treat_voids<Dim>(map, field, morphology.voids, communicator, record);
-  if constexpr (Dim == 2) {
-    if (morphology.length == BoundaryLength::isoline) {
-      append_isoline(map, field, communicator, record);
-    }
+  if (morphology.length == BoundaryLength::isoline) {
+    append_interpolated<Dim>(map, field, communicator, record);
   }
   append_physical<Dim>(map.layout.pixel_size, record);
   if (morphology.domains) {
