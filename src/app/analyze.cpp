@@ -6,7 +6,6 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/morphology/quantiles.hpp"
 #include "poreshock/output/folder.hpp"
 #include "poreshock/solver/measure.hpp"
 #include "stored_map.hpp"
@@ -62,8 +61,6 @@ struct Request {
   const AnalyzeOptions& options;
   MorphologyField what;
   Morphology settings;
-  std::vector<double> shares{};  ///< of the material below each threshold, instead of these
-  double largest = 0.0;          ///< threshold by size, the scale of the values of particles
 };
 
 MapVoids parse_voids(const std::string& text) {
@@ -86,15 +83,12 @@ Request make_request(const AnalyzeOptions& options) {
   if (options.quantiles.empty()) {
     request.what.thresholds = parse_levels("--thresholds", options.thresholds);
   } else {
-    request.shares = parse_levels("--quantiles", options.quantiles);
+    request.what.quantiles = parse_levels("--quantiles", options.quantiles);
   }
   if (!options.voids.empty()) request.settings.voids = parse_voids(options.voids);
   if (options.isoline) request.settings.length = BoundaryLength::isoline;
   if (!options.hot_spots.empty()) {
     request.what.hot_spots = parse_levels("--hot-spots", options.hot_spots);
-  }
-  for (const double threshold : request.what.thresholds) {
-    request.largest = std::max(request.largest, std::abs(threshold));
   }
   return request;
 }
@@ -108,21 +102,8 @@ struct Measured {
 template <int Dim>
 Measured measure_map(StoredMap<Dim> stored, Request request, MPI_Comm communicator) {
   request.what.name = stored.field;
-  if (Dim == 3 && request.options.isoline) {
-    throw InputError("--isoline: found a map of three dimensions, allowed two");
-  }
-  if (!request.shares.empty()) {
-    request.what.thresholds = quantiles<Dim>(stored.map, 0, request.shares, communicator);
-  }
-  Measured result{stored.stamp, measure<Dim>(stored.map, 0, request.what, stored.unit,
-                                             request.settings, stored.shift, communicator)};
-  if (request.shares.empty()) return result;
-  // All records of a file share their axis: the shares, with the values as a curve beside.
-  result.record.functionals.insert(result.record.functionals.begin(),
-                                   {"level", request.what.thresholds, stored.unit});
-  result.record.threshold = request.shares;
-  result.record.unit = std::string("1");
-  return result;
+  return {stored.stamp, measure<Dim>(stored.map, 0, request.what, stored.unit, request.settings,
+                                     stored.shift, communicator)};
 }
 
 /// Arrays are numbered as they come; their time is that number.
@@ -161,10 +142,10 @@ Measured measure_snapshot(const std::string& path, const Request& request, MPI_C
     }
     dimension = file.integer("dimension");
   }
-  const double largest = request.largest;
-  return dimension == 2 ? measure_map<2>(map_of_snapshot<2>(path, options, largest, communicator),
+  const MorphologyField& what = request.what;
+  return dimension == 2 ? measure_map<2>(map_of_snapshot<2>(path, options, what, communicator),
                                          request, communicator)
-                        : measure_map<3>(map_of_snapshot<3>(path, options, largest, communicator),
+                        : measure_map<3>(map_of_snapshot<3>(path, options, what, communicator),
                                          request, communicator);
 }
 

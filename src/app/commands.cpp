@@ -163,7 +163,8 @@ void declare_analyze(Command& command, CLI::App& app) {
   analyze->add_option("--quantiles", options.quantiles,
                       "instead: shares of the material below each threshold, written the same way");
   analyze->add_option("--voids", options.voids, "in chi: black (default), white, fill or exclude");
-  analyze->add_flag("--isoline", options.isoline, "lengths of interpolated boundaries too, in 2-D");
+  analyze->add_flag("--isoline", options.isoline,
+                    "lengths (3-D: areas) of interpolated boundaries too");
   analyze->add_option("--hot-spots", options.hot_spots,
                       "thresholds at which every hot spot is listed, written the same way");
   analyze->add_option("--field", options.field,

@@ -71,6 +71,8 @@ RunData read_run(const std::string& path, const CompareOptions& options, MPI_Com
   RunData run{path, curves.unit, curves.scene, curves.pixel, {}};
   run.process.time = curves.time;
   run.process.threshold = curves.threshold;
+  const auto level = curves.functionals.find("level");
+  if (level != curves.functionals.end()) run.process.level = level->second;
   const double ratio = options.length > 0.0 ? options.length / curves.pixel : 1.0;
   double factor = 1.0;
   for (const std::string& name : functional_names(curves, options.chi, path)) {
@@ -95,6 +97,14 @@ void require_comparable(const RunData& reference, const RunData& run,
     throw InputError(run.path + " is a run in " + std::to_string(own - 1) + " dimensions, " +
                      reference.path + " in " + std::to_string(theirs - 1) +
                      ": their morphology cannot be compared");
+  }
+  if (run.process.level.empty() != reference.process.level.empty()) {
+    const bool shares = !run.process.level.empty();
+    throw InputError((shares ? run.path : reference.path) + " was measured at quantiles, " +
+                     (shares ? reference.path : run.path) + " at values in " +
+                     (shares ? reference.unit : run.unit) +
+                     ": allowed are two runs of one kind; measure the snapshots of one again with "
+                     "poreshock analyze --quantiles or --thresholds");
   }
   if (run.pixel == reference.pixel || options.length > 0.0) return;
   char text[160];

@@ -8,6 +8,7 @@
 #include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/scene/read_scene.hpp"
+#include "poreshock/solver/measure.hpp"
 
 namespace poreshock {
 
@@ -110,17 +111,6 @@ std::vector<double> read_field(const std::string& name, const Columns& columns) 
   return result;
 }
 
-/// Largest finite value by size over all ranks, zero without one. Collective.
-double largest_size(const std::vector<double>& values, MPI_Comm communicator) {
-  double largest = 0.0;
-  for (const double value : values) {
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  }
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator),
-            "MPI_Allreduce");
-  return largest;
-}
-
 template <int Dim>
 PixelLayout<Dim> layout_of(const Scene& scene, double pixel) {
   PixelLayout<Dim> layout;
@@ -167,7 +157,7 @@ StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& opti
 
 template <int Dim>
 StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& options,
-                               double largest, MPI_Comm communicator) {
+                               const MorphologyField& what, MPI_Comm communicator) {
   Hdf5File file = Hdf5File::open(path, communicator);
   const Scene scene = parse_scene(file.text("scene"), path);
   const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
@@ -211,17 +201,16 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   for (const MaterialParameters& m : scene.materials) {
     scales.density = std::max(scales.density, initial_density(make_material(m)));
   }
-  const double scale = largest > 0.0 ? largest : largest_size(values, communicator);
-  const std::vector<PixelValues> fields = {{values, scale > 0.0 ? scale : 1.0}};
+  const std::vector<PixelValues> fields = {{values, map_scale(what, values, communicator)}};
   result.map = deposit<Dim>(sources, fields, scales, grid);
   return result;
 }
 
 template StoredMap<2> map_of_array<2>(const StoredArray&, const AnalyzeOptions&, MPI_Comm);
 template StoredMap<3> map_of_array<3>(const StoredArray&, const AnalyzeOptions&, MPI_Comm);
-template StoredMap<2> map_of_snapshot<2>(const std::string&, const AnalyzeOptions&, double,
-                                         MPI_Comm);
-template StoredMap<3> map_of_snapshot<3>(const std::string&, const AnalyzeOptions&, double,
-                                         MPI_Comm);
+template StoredMap<2> map_of_snapshot<2>(const std::string&, const AnalyzeOptions&,
+                                         const MorphologyField&, MPI_Comm);
+template StoredMap<3> map_of_snapshot<3>(const std::string&, const AnalyzeOptions&,
+                                         const MorphologyField&, MPI_Comm);
 
 }  // namespace poreshock

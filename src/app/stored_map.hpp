@@ -11,6 +11,7 @@
 #include "poreshock/output/array_file.hpp"
 #include "poreshock/output/hdf5_file.hpp"
 #include "poreshock/output/morphology_file.hpp"
+#include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
 
@@ -30,10 +31,10 @@ template <int Dim>
 StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& options,
                             MPI_Comm communicator);
 
-/// The map of a snapshot, made from its particles as the run itself does; `largest` is the largest
-/// threshold by size, 0 where there is none. Throws InputError when it lacks a dataset. Collective.
+/// The map of a snapshot, made from its particles as a run that measures `what` does.
+/// Throws InputError when it lacks a dataset. Collective.
 template <int Dim>
 StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& options,
-                               double largest, MPI_Comm communicator);
+                               const MorphologyField& what, MPI_Comm communicator);
 
 }  // namespace poreshock

@@ -43,6 +43,15 @@ class DisjointSets {
     for (std::size_t i = 0; i < nodes; ++i) nodes_[i].parent = static_cast<std::uint32_t>(i);
   }
 
+  std::size_t size() const { return nodes_.size(); }
+
+  /// Adds a node, a set of its own, and returns its number.
+  std::uint32_t add() {
+    const auto node = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({node, 1, {}});
+    return node;
+  }
+
   Place find(std::uint32_t node) {
     Crossings total;
     while (nodes_[node].parent != node) {
@@ -55,6 +64,9 @@ class DisjointSets {
     }
     return {node, total};
   }
+
+  /// A node of the same set, nearer to its root; a root's is itself.
+  std::uint32_t parent(std::uint32_t node) const { return nodes_[node].parent; }
 
   /// Joins the sets of a and b, which is reached from a with `step` crossings.
   Joined join(std::uint32_t a, std::uint32_t b, Crossings step) {

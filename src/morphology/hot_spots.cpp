@@ -13,7 +13,7 @@ namespace poreshock {
 namespace {
 
 /// No finite value of a map has more quanta; 2^31 pixels of so many fit 64 bits.
-constexpr std::int64_t most_quanta = std::int64_t{1} << 32;
+constexpr double most_quanta = 0x1p32;
 
 /// What is known of a domain or of a part of it. Coordinates run on across periodic sides, so that
 /// they may lie outside the map; sums are exact integers.
@@ -54,22 +54,40 @@ void add(const Part& part, Crossings at, const Frame& frame, Part& domain) {
   domain.first = std::min(domain.first, part.first);
 }
 
-/// One run as a part of a domain.
-Part part_of(const Run& run, std::int64_t y, std::int64_t z, const double* values,
-             double inverse_quantum, const Frame& frame) {
-  Part part;
-  part.pixels = run.last - run.first + 1;
-  for (std::int32_t x = run.first; x <= run.last; ++x) {
+/// Adds a run to the part of its label; the runs of a part come in the order of their rows.
+void add_run(const Run& run, std::int64_t y, std::int64_t z, const double* values,
+             double inverse_quantum, const Frame& frame, Part& part) {
+  const auto quanta = [&](std::int32_t x) {
     // An infinite value counts as twice the largest finite one.
-    part.value_sum += std::clamp(quantise(values[x], inverse_quantum), -most_quanta, most_quanta);
-    part.peak = values[x] > part.peak ? values[x] : part.peak;
+    const double exact = values[x] * inverse_quantum;
+    const double below = exact < most_quanta ? exact : most_quanta;
+    return std::llrint(below > -most_quanta ? below : -most_quanta);
+  };
+  const auto higher = [](double a, double b) { return a > b ? a : b; };
+  // Both ends first: a loop over the one or two pixels of most runs of a noise ends unforeseen.
+  const std::int64_t of_last = quanta(run.last);
+  std::int64_t value_sum = quanta(run.first) + (run.last > run.first ? of_last : 0);
+  double peak = higher(higher(values[run.first], values[run.last]), part.peak);
+  for (std::int32_t x = run.first + 1; x < run.last; ++x) {
+    value_sum += quanta(x);
+    peak = higher(values[x], peak);
   }
-  part.low = {run.first, y, z};
-  part.high = {run.last, y, z};
-  part.sum = {part.pixels * (std::int64_t{run.first} + run.last + 1), (2 * y + 1) * part.pixels,
-              (2 * z + 1) * part.pixels};
-  part.first = (z * frame.ny + y) * frame.nx + run.first;
-  return part;
+  part.peak = peak;
+  part.value_sum += value_sum;
+  if (part.pixels == 0) {
+    part.low = part.high = {run.first, y, z};
+    part.first = (z * frame.ny + y) * frame.nx + run.first;
+  }
+  const std::int64_t pixels = run.last - run.first + 1;
+  part.pixels += pixels;
+  part.low[0] = std::min<std::int64_t>(part.low[0], run.first);
+  part.high[0] = std::max<std::int64_t>(part.high[0], run.last);
+  part.low[1] = std::min(part.low[1], y);
+  part.high[1] = std::max(part.high[1], y);
+  part.high[2] = z;
+  part.sum[0] += pixels * (std::int64_t{run.first} + run.last + 1);
+  part.sum[1] += pixels * (2 * y + 1);
+  part.sum[2] += pixels * (2 * z + 1);
 }
 
 /// A run on the border between two slabs, which both of them have: its place there, the part it
@@ -87,62 +105,76 @@ struct SlabDomains {
   std::vector<BorderRun> border;
 };
 
-/// Number of the set of each run, sets in the order of their roots.
-std::vector<std::uint32_t> number_sets(const Labels& labels, std::size_t runs, std::size_t& count) {
-  std::vector<std::uint32_t> number(runs);
+/// Number of the set of each label, sets in the order of their roots.
+std::vector<std::uint32_t> number_sets(const Labels& labels, std::size_t& count) {
+  std::vector<std::uint32_t> number(labels.sets.size());
   count = 0;
-  for (std::uint32_t r = 0; r < runs; ++r) {
-    if (labels.sets.place(r).root == r) number[r] = static_cast<std::uint32_t>(count++);
+  for (std::uint32_t l = 0; l < number.size(); ++l) {
+    if (labels.sets.place(l).root == l) number[l] = static_cast<std::uint32_t>(count++);
   }
-  for (std::uint32_t r = 0; r < runs; ++r) number[r] = number[labels.sets.place(r).root];
+  for (std::uint32_t l = 0; l < number.size(); ++l) number[l] = number[labels.sets.place(l).root];
   return number;
 }
 
-/// Adds every run to its set, and lists the runs on borders.
-void add_runs(const Slab& slab, const Runs& runs, std::span<const double> values,
-              double inverse_quantum, const Frame& frame, std::span<const std::uint32_t> number,
-              const Labels& labels, std::vector<Part>& domains, std::vector<BorderRun>& border) {
-  const auto ny = static_cast<std::size_t>(slab.ny);
-  for (std::size_t row = 0; row + 1 < runs.starts.size(); ++row) {
-    const auto y = static_cast<std::int64_t>(row % ny);
-    const auto z = static_cast<std::int64_t>(row / ny);
-    const bool low_border = z == 0 && !slab.first;
-    const bool high_border = z >= slab.layers;
+/// The part of each label.
+std::vector<Part> add_runs(const Slab& slab, const Runs& runs, std::span<const double> values,
+                           double inverse_quantum, const Frame& frame,
+                           std::span<const std::uint32_t> label, std::size_t labels) {
+  std::vector<Part> parts(labels);
+  const std::size_t rows =
+      static_cast<std::size_t>(slab.ny) * static_cast<std::size_t>(slab.layers);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto y = static_cast<std::int64_t>(row) % slab.ny;
+    const auto z = static_cast<std::int64_t>(row) / slab.ny + frame.first_layer;
+    const double* row_values = &values[row * static_cast<std::size_t>(slab.nx)];
     for (std::size_t r = runs.starts[row]; r < runs.starts[row + 1]; ++r) {
-      const Run& run = runs.runs[r];
-      const Crossings at = labels.sets.place(static_cast<std::uint32_t>(r)).from_root;
-      if (!high_border) {
-        const double* row_values = &values[row * static_cast<std::size_t>(slab.nx)];
-        add(part_of(run, y, z + frame.first_layer, row_values, inverse_quantum, frame), at, frame,
-            domains[number[r]]);
-      }
-      if (!low_border && !high_border) continue;
-      const std::int64_t layer = z + frame.first_layer;
-      border.push_back(
-          {(layer * frame.ny + y) * frame.nx + run.first, std::int64_t{number[r]}, at});
+      add_run(runs.runs[r], y, z, row_values, inverse_quantum, frame, parts[label[r]]);
     }
   }
+  return parts;
+}
+
+/// Runs on the borders to other slabs, their parts as the numbers of their labels.
+std::vector<BorderRun> border_runs(const Slab& slab, const Runs& runs, const Frame& frame,
+                                   std::span<const std::uint32_t> label, const Labels& labels) {
+  std::vector<BorderRun> border;
+  const auto ny = static_cast<std::size_t>(slab.ny);
+  for (std::size_t row = 0; row + 1 < runs.starts.size(); ++row) {
+    const auto z = static_cast<std::int64_t>(row / ny);
+    if ((z > 0 || slab.first) && z < slab.layers) continue;
+    const std::int64_t first =
+        ((z + frame.first_layer) * frame.ny + static_cast<std::int64_t>(row % ny)) * frame.nx;
+    for (std::size_t r = runs.starts[row]; r < runs.starts[row + 1]; ++r) {
+      border.push_back({first + runs.runs[r].first, std::int64_t{label[r]},
+                        labels.sets.place(label[r]).from_root});
+    }
+  }
+  return border;
 }
 
 SlabDomains collect(const Slab& slab, const Runs& runs, std::span<const double> values,
-                    double inverse_quantum, const Frame& frame, const Labels& labels) {
+                    double inverse_quantum, const Frame& frame,
+                    std::span<const std::uint32_t> label, const Labels& labels) {
   std::size_t count = 0;
-  const std::vector<std::uint32_t> number = number_sets(labels, runs.runs.size(), count);
+  const std::vector<std::uint32_t> number = number_sets(labels, count);
+  const std::vector<Part> parts =
+      add_runs(slab, runs, values, inverse_quantum, frame, label, number.size());
+  const auto winds = find_winding(labels);
   std::vector<Part> domains(count);
-  SlabDomains result;
-  add_runs(slab, runs, values, inverse_quantum, frame, number, labels, domains, result.border);
-  const auto winds = find_winding(labels, runs.runs.size());
-  for (std::size_t r = 0; r < runs.runs.size(); ++r) {
-    if (labels.sets.place(static_cast<std::uint32_t>(r)).root == r) {
-      domains[number[r]].winds = winds[r];
-    }
+  for (std::uint32_t l = 0; l < number.size(); ++l) {
+    const auto place = labels.sets.place(l);
+    add(parts[l], place.from_root, frame, domains[number[l]]);
+    if (place.root == l) domains[number[l]].winds = winds[l];
   }
+  SlabDomains result;
+  result.border = border_runs(slab, runs, frame, label, labels);
   std::vector<std::int64_t> open(count, -1);
   for (BorderRun& run : result.border) {
-    std::int64_t& part = open[static_cast<std::size_t>(run.part)];
+    const std::uint32_t domain = number[static_cast<std::size_t>(run.part)];
+    std::int64_t& part = open[domain];
     if (part < 0) {
       part = static_cast<std::int64_t>(result.parts.size());
-      result.parts.push_back(domains[static_cast<std::size_t>(run.part)]);
+      result.parts.push_back(domains[domain]);
     }
     run.part = part;
   }
@@ -165,7 +197,7 @@ std::vector<Part> join_parts(const std::vector<Part>& parts, std::vector<BorderR
     join(static_cast<std::size_t>(a.part), static_cast<std::size_t>(b.part), a.at - b.at, labels);
   }
   settle(labels);
-  const auto winds = find_winding(labels, parts.size());
+  const auto winds = find_winding(labels);
   std::vector<Part> domains(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto place = labels.sets.place(static_cast<std::uint32_t>(p));
@@ -207,9 +239,17 @@ std::vector<Part> gather_domains(SlabDomains slab, const Frame& frame, MPI_Comm 
 double find_inverse_quantum(const Slab& slab, std::span<const double> values,
                             std::span<const std::uint8_t> solid, MPI_Comm communicator) {
   double most = 0.0;
-  for (std::size_t i = 0; i < slab.layer_size() * static_cast<std::size_t>(slab.layers); ++i) {
-    const double size = std::abs(values[i]);
-    if (solid[i] != 0 && std::isfinite(size)) most = size > most ? size : most;
+  const std::size_t owned = slab.layer_size() * static_cast<std::size_t>(slab.layers);
+  constexpr std::size_t stretch = 64;
+  for (std::size_t at = 0; at < owned; at += stretch) {
+    const std::size_t end = std::min(at + stretch, owned);
+    // Most stretches hold nothing larger than what came before, which is seen at once.
+    std::uint64_t larger = 0;
+    for (std::size_t i = at; i < end; ++i) larger |= std::abs(values[i]) > most ? 1 : 0;
+    for (std::size_t i = at; larger != 0 && i < end; ++i) {
+      const double size = std::abs(values[i]);
+      if (solid[i] != 0 && std::isfinite(size)) most = size > most ? size : most;
+    }
   }
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, communicator),
             "MPI_Allreduce");
@@ -261,10 +301,11 @@ std::vector<HotSpot<Dim>> find_hot_spots(const PixelField<Dim>& map, std::size_t
   const Frame frame{slab.nx, slab.ny, of_lower_ranks(slab.layers, communicator)};
   const double inverse_quantum = find_inverse_quantum(slab, values, map.solid, communicator);
   const Runs runs = find_runs(slab, values, map.solid, threshold);
-  Labels labels(runs.runs.size());
-  label(slab, runs, joining == Joining::corners, labels);
-  std::vector<Part> domains = gather_domains(
-      collect(slab, runs, values, inverse_quantum, frame, labels), frame, communicator);
+  Labels labels(0);
+  const auto labels_of_runs = label(slab, runs, joining == Joining::corners, labels);
+  std::vector<Part> domains =
+      gather_domains(collect(slab, runs, values, inverse_quantum, frame, labels_of_runs, labels),
+                     frame, communicator);
   std::sort(domains.begin(), domains.end(), [](const Part& a, const Part& b) {
     return a.pixels != b.pixels ? a.pixels > b.pixels : a.first < b.first;
   });

@@ -69,10 +69,12 @@ std::vector<double> times_of_both(const Path& a, const Path& b, Window window) {
 double mean_above(const Process& process, std::size_t record) {
   const std::size_t count = process.threshold.size();
   const double* area = &process.functionals[0][record * count];
-  if (count == 1) return area[0];
-  double integral = 0.0;
+  const bool by_share = !process.level.empty();
+  const double* at = by_share ? &process.level[record * count] : process.threshold.data();
+  if (count == 1 && !by_share) return area[0];
+  double integral = by_share ? at[0] * area[0] : 0.0;
   for (std::size_t k = 0; k + 1 < count; ++k) {
-    integral += 0.5 * (area[k] + area[k + 1]) * (process.threshold[k + 1] - process.threshold[k]);
+    integral += 0.5 * (area[k] + area[k + 1]) * (at[k + 1] - at[k]);
   }
   return integral;
 }

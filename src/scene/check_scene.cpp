@@ -249,9 +249,6 @@ void check_pixel(const Scene& scene, Report& report) {
 void check_morphology(const Scene& scene, Report& report) {
   const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
   sites ? check_site(scene, report) : check_pixel(scene, report);
-  if (scene.dimension == 3 && scene.morphology.length == BoundaryLength::isoline) {
-    add_problem("morphology.length", "found \"isoline\", allowed \"pixels\" in 3-D", report);
-  }
   if (!good(report, {"morphology.every", "morphology.fields"})) return;
   if (scene.morphology.every > 0.0 && scene.morphology.fields.empty()) {
     add_problem("morphology.fields", "missing, give at least one field, or every = 0", report);

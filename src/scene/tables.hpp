@@ -137,8 +137,9 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
          {"in chi: cold, hot, like the nearest material, or left out"});
   const Names<BoundaryLength> lengths{{"pixels", BoundaryLength::pixels},
                                       {"isoline", BoundaryLength::isoline}};
-  choice(visitor, "length", morphology.length, lengths,
-         {"of boundaries: L and L_crofton from pixels; isoline adds L_isoline, in 2-D"});
+  choice(
+      visitor, "length", morphology.length, lengths,
+      {"of boundaries: from pixels; isoline adds the interpolated L_isoline (3-D: S_isosurface)"});
   std::vector<std::string> names;
   for (const MorphologyField& field : morphology.fields) names.push_back(field.name);
   visitor.names("fields", names, morphology_fields, {"fields to measure"});

@@ -12,8 +12,9 @@ constexpr double most_thresholds = 65534.0;
 
 const NumberRule level_rule{any_number, "", "", Need::required};
 
-bool is_range_key(std::string_view key) {
-  return key == "from" || key == "to" || key == "step";
+/// Keys of thresholds themselves, and so no name of a field.
+bool is_levels_key(std::string_view key) {
+  return key == "from" || key == "to" || key == "step" || key == "quantiles";
 }
 
 }  // namespace
@@ -173,24 +174,49 @@ bool TomlReader::read_levels(const toml::node& node, const std::string& key,
   return false;
 }
 
+bool TomlReader::read_thresholds(const toml::node& node, const std::string& key,
+                                 MorphologyField& field) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr || !table->contains("quantiles")) {
+    return read_levels(node, key, field.thresholds);
+  }
+  const std::size_t before = report_.problems.size();
+  TomlReader inner(*table, path_of(key), report_);
+  if (inner.read_levels(*inner.find("quantiles"), "quantiles", field.quantiles)) {
+    const double wrong =
+        field.quantiles.front() < 0.0 ? field.quantiles.front() : field.quantiles.back();
+    if (wrong < 0.0 || wrong > 1.0) {
+      add_problem(inner.path_of("quantiles"),
+                  "found " + plain_number(wrong) + ", allowed shares of the material from 0 to 1",
+                  report_);
+    }
+  }
+  inner.finish();
+  return report_.problems.size() == before;
+}
+
+bool TomlReader::read_hot_spots(const toml::node& node, const std::string& key,
+                                MorphologyField& field) {
+  return read_levels(node, key, field.hot_spots);
+}
+
 void TomlReader::read_levels_by_field(const toml::node& node, const std::string& key, Need each,
-                                      std::vector<double> MorphologyField::*levels,
-                                      std::vector<MorphologyField>& fields) {
+                                      ReadLevels read, std::vector<MorphologyField>& fields) {
   const toml::table* table = node.as_table();
   const bool by_field =
       table != nullptr && std::none_of(table->begin(), table->end(),
-                                       [](auto&& e) { return is_range_key(e.first.str()); });
+                                       [](auto&& e) { return is_levels_key(e.first.str()); });
   if (by_field) {
     TomlReader inner(*table, path_of(key), report_);
     if (has_problem(report_, path_of("fields"))) inner.skip_unknown();
     for (MorphologyField& field : fields) {
       const toml::node* own = inner.find(field.name.c_str(), each,
                                          "its thresholds, or take it out of morphology.fields");
-      if (own != nullptr) inner.read_levels(*own, field.name, field.*levels);
+      if (own != nullptr) (inner.*read)(*own, field.name, field);
     }
     inner.finish();
   } else if (fields.size() == 1) {
-    read_levels(node, key, fields[0].*levels);
+    (this->*read)(node, key, fields[0]);
   } else if (!has_problem(report_, path_of("fields"))) {
     add_problem(path_of(key),
                 fields.empty() ? "found thresholds, but morphology.fields names no field"
@@ -206,17 +232,18 @@ void TomlReader::thresholds(const char* key, const std::vector<std::string>& fie
   value.clear();
   for (const std::string& field : fields) value.push_back({field});
   const Need need = fields.empty() ? Need::optional : Need::required;
-  const toml::node* node =
-      find(key, need,
-           "numbers in ascending order or {from = , to = , step = }, by field name if several");
+  const toml::node* node = find(
+      key, need,
+      "numbers in ascending order, {from = , to = , step = } or {quantiles = }, by field name if "
+      "several");
   if (node == nullptr) return;
-  read_levels_by_field(*node, key, Need::required, &MorphologyField::thresholds, value);
+  read_levels_by_field(*node, key, Need::required, &TomlReader::read_thresholds, value);
 }
 
 void TomlReader::hot_spots(const char* key, std::vector<MorphologyField>& fields, const Rule&) {
   const toml::node* node = find(key);
   if (node == nullptr) return;
-  read_levels_by_field(*node, key, Need::optional, &MorphologyField::hot_spots, fields);
+  read_levels_by_field(*node, key, Need::optional, &TomlReader::read_hot_spots, fields);
 }
 
 }  // namespace poreshock::scene_text

@@ -50,7 +50,8 @@ class TomlReader {
   /// One kind for all axes that are not periodic or an array of one per axis.
   void sides(const char* key, std::array<SideKind, 2>& value, const std::array<bool, 2>& periodic,
              int count, const Rule& rule);
-  /// Thresholds of the named fields: a list or a range for one field, else a table by field name.
+  /// Thresholds of the named fields: a list, a range or quantiles for one field, else a table by
+  /// field name.
   void thresholds(const char* key, const std::vector<std::string>& fields,
                   std::vector<MorphologyField>& value, const Rule& rule);
   /// Thresholds of hot spots, written the same way, for some or all of the fields.
@@ -127,9 +128,11 @@ class TomlReader {
   bool read_levels(const toml::node& node, const std::string& key, std::vector<double>& levels);
   bool read_list(const toml::array& array, const std::string& key, std::vector<double>& levels);
   bool read_range(const toml::table& table, const std::string& key, std::vector<double>& levels);
+  bool read_thresholds(const toml::node& node, const std::string& key, MorphologyField& field);
+  bool read_hot_spots(const toml::node& node, const std::string& key, MorphologyField& field);
+  using ReadLevels = bool (TomlReader::*)(const toml::node&, const std::string&, MorphologyField&);
   void read_levels_by_field(const toml::node& node, const std::string& key, Need each,
-                            std::vector<double> MorphologyField::*levels,
-                            std::vector<MorphologyField>& fields);
+                            ReadLevels read, std::vector<MorphologyField>& fields);
 
   const toml::table& table_;
   std::string path_;

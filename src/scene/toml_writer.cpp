@@ -49,6 +49,17 @@ std::string list_text(std::size_t count, Text text) {
   return result + (is_long ? "\n]" : "]");
 }
 
+/// Empty without levels.
+std::string levels_text(const std::vector<double>& levels) {
+  if (levels.empty()) return "";
+  return list_text(levels.size(), [&](std::size_t i) { return number_text(levels[i]); });
+}
+
+std::string thresholds_text(const MorphologyField& field) {
+  if (field.quantiles.empty()) return levels_text(field.thresholds);
+  return "{ quantiles = " + levels_text(field.quantiles) + " }";
+}
+
 std::string triple_text(const Triple& value, int count) {
   return list_text(static_cast<std::size_t>(count),
                    [&](std::size_t axis) { return number_text(value[axis]); });
@@ -210,15 +221,12 @@ void TomlWriter::sides(const char* key, const std::array<SideKind, 2>& value,
       rule);
 }
 
-void TomlWriter::add_levels(const char* key, std::vector<double> MorphologyField::*levels,
+void TomlWriter::add_levels(const char* key, std::string (*levels)(const MorphologyField&),
                             const std::vector<MorphologyField>& fields, const Rule& rule) {
   TomlWriter inner(path_of(key));
   for (const MorphologyField& field : fields) {
-    const std::vector<double>& own = field.*levels;
-    if (own.empty()) continue;
-    inner.entries_.push_back(
-        {field.name, list_text(own.size(), [&](std::size_t i) { return number_text(own[i]); }),
-         ""});
+    const std::string own = levels(field);
+    if (!own.empty()) inner.entries_.push_back({field.name, own, ""});
   }
   if (!inner.entries_.empty()) add_section(path_of(key), false, rule.about, inner);
 }
@@ -226,15 +234,16 @@ void TomlWriter::add_levels(const char* key, std::vector<double> MorphologyField
 void TomlWriter::thresholds(const char* key, const std::vector<std::string>&,
                             const std::vector<MorphologyField>& value, const Rule& rule) {
   constexpr const char* allowed =
-      "an array, {from = , to = , step = }, or a table of these by field";
+      "an array, {from = , to = , step = }, {quantiles = }, or a table of these by field";
   if (keys_ != nullptr) return list(key, {"", "", allowed}, rule.about, rule.need);
-  add_levels(key, &MorphologyField::thresholds, value, rule);
+  add_levels(key, thresholds_text, value, rule);
 }
 
 void TomlWriter::hot_spots(const char* key, const std::vector<MorphologyField>& fields,
                            const Rule& rule) {
   if (keys_ != nullptr) return list(key, {"", "", "likewise"}, rule.about, rule.need);
-  add_levels(key, &MorphologyField::hot_spots, fields, rule);
+  const auto text = [](const MorphologyField& field) { return levels_text(field.hot_spots); };
+  add_levels(key, text, fields, rule);
 }
 
 }  // namespace poreshock::scene_text

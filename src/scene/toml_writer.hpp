@@ -107,7 +107,7 @@ class TomlWriter {
   void list(const std::string& key, const Words& words, const std::string& about, Need need);
   void add_section(const std::string& path, bool repeated, const std::string& about,
                    const TomlWriter& inner);
-  void add_levels(const char* key, std::vector<double> MorphologyField::*levels,
+  void add_levels(const char* key, std::string (*levels)(const MorphologyField&),
                   const std::vector<MorphologyField>& fields, const Rule& rule);
   std::string inline_text() const;
 

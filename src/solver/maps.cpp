@@ -6,6 +6,7 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/solver/measure.hpp"
 
 namespace poreshock {
 
@@ -23,11 +24,8 @@ PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Si
   const Particles<Dim>& particles = sim.particles;
   std::vector<PixelValues> values;
   for (std::size_t f = 0; f < columns.size(); ++f) {
-    double scale = 0.0;
-    for (const double threshold : scene.morphology.fields[f].thresholds) {
-      scale = std::max(scale, std::abs(threshold));
-    }
-    values.push_back({columns[f], scale > 0.0 ? scale : 1.0});
+    values.push_back(
+        {columns[f], map_scale(scene.morphology.fields[f], columns[f], sim.communicator)});
   }
   PixelSources<Dim> sources;
   for (int a = 0; a < Dim; ++a) sources.position[a] = particles.position[a];

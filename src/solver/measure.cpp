@@ -1,11 +1,16 @@
 #include "poreshock/solver/measure.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "poreshock/core/error.hpp"
+#include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/analysis.hpp"
 #include "poreshock/morphology/domains.hpp"
 #include "poreshock/morphology/isoline.hpp"
+#include "poreshock/morphology/isosurface.hpp"
+#include "poreshock/morphology/quantiles.hpp"
 #include "poreshock/morphology/voids.hpp"
 
 namespace poreshock {
@@ -76,13 +81,36 @@ void treat_voids(const PixelField<Dim>& map, std::size_t field, MapVoids voids,
   curve(Dim == 2 ? "chi4" : "chi6", record) = std::move(density.faces);
 }
 
-void append_isoline(const PixelField<2>& map, std::size_t field, MPI_Comm communicator,
-                    MorphologyRecord& record) {
-  Curve length{"L_isoline", isoline_lengths(map, field, record.threshold, communicator)};
-  for (double& value : length.values) {
+/// The interpolated boundary per pixel.
+template <int Dim>
+void append_interpolated(const PixelField<Dim>& map, std::size_t field, MPI_Comm communicator,
+                         MorphologyRecord& record) {
+  Curve boundary;
+  if constexpr (Dim == 2) {
+    boundary = {"L_isoline", isoline_lengths(map, field, record.threshold, communicator)};
+  } else {
+    boundary = {"S_isosurface", isosurface_areas(map, field, record.threshold, communicator)};
+  }
+  for (double& value : boundary.values) {
     value = record.pixels > 0 ? value / static_cast<double>(record.pixels) : 0.0;
   }
-  record.functionals.push_back(std::move(length));
+  record.functionals.push_back(std::move(boundary));
+}
+
+/// Measures at quantiles first as at any thresholds: none is reached where no pixel has a value.
+std::vector<double> thresholds_at(std::vector<double> levels) {
+  for (double& level : levels) {
+    if (std::isnan(level)) level = std::numeric_limits<double>::infinity();
+  }
+  return levels;
+}
+
+/// All records of a run share their axis: the shares, with the values as a curve beside.
+void use_shares(const std::vector<double>& shares, const std::vector<double>& levels,
+                MorphologyRecord& record) {
+  record.functionals.insert(record.functionals.begin(), {"level", levels, record.unit});
+  record.threshold = shares;
+  record.unit = "1";
 }
 
 /// Beside each functional that counts pixels to the power -k, the same per metre to that power.
@@ -134,6 +162,19 @@ void append_spot(const HotSpot<Dim>& spot, double threshold, double pixel, const
 
 }  // namespace
 
+double map_scale(const MorphologyField& what, std::span<const double> values,
+                 MPI_Comm communicator) {
+  double scale = 0.0;
+  for (const double threshold : what.thresholds) scale = std::max(scale, std::abs(threshold));
+  if (scale > 0.0) return scale;
+  for (const double value : values) {
+    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &scale, 1, MPI_DOUBLE, MPI_MAX, communicator),
+            "MPI_Allreduce");
+  return scale > 0.0 ? scale : 1.0;
+}
+
 template <int Dim>
 MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const MorphologyField& what,
                          const std::string& unit, const Morphology& morphology,
@@ -142,16 +183,19 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
   record.field = what.name;
   record.unit = unit;
   record.threshold = what.thresholds;
-  append_counts(count<Dim>(map, field, what.thresholds, communicator), record);
+  std::vector<double> levels;
+  if (!what.quantiles.empty()) {
+    levels = quantiles<Dim>(map, field, what.quantiles, communicator);
+    record.threshold = thresholds_at(levels);
+  }
+  append_counts(count<Dim>(map, field, record.threshold, communicator), record);
   treat_voids<Dim>(map, field, morphology.voids, communicator, record);
-  if constexpr (Dim == 2) {
-    if (morphology.length == BoundaryLength::isoline) {
-      append_isoline(map, field, communicator, record);
-    }
+  if (morphology.length == BoundaryLength::isoline) {
+    append_interpolated<Dim>(map, field, communicator, record);
   }
   append_physical<Dim>(map.layout.pixel_size, record);
   if (morphology.domains) {
-    append_domains(count_domains<Dim>(map, field, what.thresholds, Joining::corners, communicator),
+    append_domains(count_domains<Dim>(map, field, record.threshold, Joining::corners, communicator),
                    record);
   }
   if (!what.hot_spots.empty()) record.spot_columns = spot_columns<Dim>(unit);
@@ -162,6 +206,7 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
     }
     record.spots += spots.size();
   }
+  if (!what.quantiles.empty()) use_shares(what.quantiles, levels, record);
   return record;
 }
 

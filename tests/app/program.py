@@ -126,6 +126,7 @@ end = 10e-9
 beat = 2.5e-9
 [morphology]
 every = 5e-9
+length = "isoline"
 fields = ["temperature"]
 thresholds = { from = 305, to = 605, step = 50 }
 [checkpoint]

@@ -83,6 +83,37 @@ class Domains(program.ProgramTest):
         after = program.datasets(self.folder / "after/morphology.h5")
         numpy.testing.assert_array_equal(after["temperature/chi_paper"][0], found["temperature/chi_paper"][-1])
 
+    def test_quantiles(self):
+        """Thresholds by shares of the material, which differ from record to record."""
+        shares = [0.1, 0.5, 0.5625, 0.9, 1.0]
+        scene = ("--set", f"morphology.thresholds={{ temperature = {{ quantiles = {shares} }}, pressure = [1e9, 5e9] }}",
+                 "--set", "morphology.domains=true")
+        for ranks in (1, 3):
+            self.run_scene("porous.toml", f"shares{ranks}", *scene, ranks=ranks)
+        self.assert_same_datasets("shares1/morphology.h5", "shares3/morphology.h5")
+        found = program.datasets(self.folder / "shares1/morphology.h5")
+        numpy.testing.assert_array_equal(found["temperature/threshold"], shares)
+        self.assertNotIn("pressure/level", found)
+        level, white, pixels = (found[f"temperature/{name}"] for name in ("level", "F", "pixels"))
+        self.assertEqual(level.shape, (len(pixels), len(shares)))
+        self.assertTrue((numpy.diff(level, axis=1) >= 0).all() and (level[-1, 3] > level[0, 3] + 50))
+        # The level is the pixel ceil(p N) of the sorted ones: it and those after it are at least as hot.
+        number = numpy.maximum(numpy.ceil(numpy.array(shares) * pixels[:, None]), 1)
+        self.assertTrue((white >= pixels[:, None] - number + 1).all())
+        # Exactly so many where no two pixels are equally hot, as in the compressed half.
+        numpy.testing.assert_array_equal(white[-1, 3:], (pixels[:, None] - number + 1)[-1, 3:])
+        # A snapshot gives what the run measured, to the bit.
+        self.succeed("analyze", "shares1/snapshot_000008.h5", "--quantiles", ",".join(map(str, shares)), "--output",
+                     "shares_after", ranks=2)
+        after = program.datasets(self.folder / "shares_after/morphology.h5")
+        for name in ("level", "F", "E", "V", "L", "chi", "chi_paper"):
+            numpy.testing.assert_array_equal(after[f"temperature/{name}"][0], found[f"temperature/{name}"][-1])
+        # Runs are compared share by share, and not with runs at thresholds in kelvin.
+        self.run_scene("porous.toml", "slow", *scene, "--set", "loading.velocity=1300")
+        self.assertIn("temperature against shares1", self.succeed("compare", "shares1", "slow").output)
+        self.refuse("shares1 was measured at quantiles, run1 at values in K: allowed are two runs of one kind; measure the "
+                    "snapshots of one again with poreshock analyze --quantiles or --thresholds", "compare", "run1", "shares1")
+
     def test_no_domains_unless_asked_for(self):
         self.run_scene("porous.toml", "plain", "--set", "time.end=5e-9")
         names = list(program.datasets(self.folder / "plain/morphology.h5"))

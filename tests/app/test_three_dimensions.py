@@ -47,6 +47,12 @@ class ThreeDimensions(ProgramTest):
         self.assertEqual(curves["temperature/C"].shape, (3, 7))
         self.assertGreater(curves["temperature/C"][-1, 0], 50)
         self.assertTrue((numpy.diff(curves["temperature/C"], axis=1) <= 0).all())
+        # Voxel faces are longer than the surface they follow, by 3/2 for all directions alike; a surface ends where its
+        # cube has a void corner.
+        faces, surface = curves["temperature/S"], curves["temperature/S_isosurface"]
+        measured = faces > 0.01
+        self.assertTrue(measured.any())
+        self.assertTrue(((0.2 < surface[measured] / faces[measured]) & (surface[measured] / faces[measured] < 1.05)).all())
 
     def test_restart_on_another_number_of_ranks(self):
         checkpoints = sorted((self.folder / "on3").glob("checkpoint_*.h5"))

@@ -119,6 +119,14 @@ TEST(Similarity, WindowEndsWithTheSlowerLoading) {
   };
   EXPECT_EQ(end_of_loading(ramp(7.0, 20)), 7.0);
   EXPECT_EQ(end_of_loading(ramp(30.0, 20)), 19.0);
+  // At quantiles the areas stay as they are, and the values show the loading.
+  Process shares =
+      make_process(times(20, 1.0), {0.25, 0.75}, {[](double, double p) { return 1 - p; }});
+  for (int t = 0; t < 20; ++t) {
+    const double level = t < 7 ? 300.0 + t : 307.0 - (t - 7);
+    shares.level.insert(shares.level.end(), {level, level + 10.0});
+  }
+  EXPECT_EQ(end_of_loading(shares), 7.0);
   const Window window = loading_window(ramp(7.0, 20), ramp(11.0, 20));
   EXPECT_EQ(window.begin, 0.0);
   EXPECT_EQ(window.end, 11.0);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/analysis.hpp"
 #include "poreshock/morphology/isoline.hpp"
@@ -240,6 +242,8 @@ TEST(Quantiles, AreTheSortedValues) {
   for (const Texture texture : {Texture::noise, Texture::ties, Texture::smooth}) {
     Image image = random_image(texture, {11, 1, 19}, {true, false}, 0.2, random);
     for (std::size_t i = 0; i < image.size(); ++i) image.values[i] -= 0.5;  // both signs
+    image.values[30] = image.values[31] = std::numeric_limits<double>::infinity();
+    image.values[90] = -std::numeric_limits<double>::infinity();
     std::vector<double> sorted;
     for (std::size_t i = 0; i < image.size(); ++i) {
       if (image.solid[i] != 0) sorted.push_back(image.values[i]);
@@ -252,6 +256,27 @@ TEST(Quantiles, AreTheSortedValues) {
       EXPECT_EQ(found[k], sorted[number - 1]) << shares[k];
     }
   }
+}
+
+TEST(Quantiles, OfEqualFewAndNoValues) {
+  const std::vector<double> shares = {0.0, 0.5, 1.0};
+  const auto found = [&](const Image& image) {
+    return quantiles(deal_out<2>(image, rank(world), size(world)), 0, shares, world);
+  };
+  Image image = image_of(5, 7, false, [](int, int) { return -0.375; });
+  EXPECT_EQ(found(image), (std::vector<double>{-0.375, -0.375, -0.375}));
+  // One pixel with a value, on one rank only.
+  std::fill(image.solid.begin(), image.solid.end(), std::uint8_t{0});
+  image.solid[32] = 1;
+  image.values[32] = 4.0;
+  EXPECT_EQ(found(image), (std::vector<double>{4.0, 4.0, 4.0}));
+  image.values[32] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(found(image)[1], std::numeric_limits<double>::infinity());
+  image.solid[32] = 0;
+  for (const double none : found(image)) EXPECT_TRUE(std::isnan(none));
+  const std::vector<double> wrong = {0.5, 1.25};
+  EXPECT_THROW(quantiles(deal_out<2>(image, rank(world), size(world)), 0, wrong, world),
+               InputError);
 }
 
 }  // namespace

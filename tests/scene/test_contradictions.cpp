@@ -204,8 +204,8 @@ TEST(Contradictions, Morphology) {
       "\"temperature\"?");
   EXPECT_EQ(
       problems(small_scene(on + "fields = [\"speed\"]\n")),
-      "s.toml:18:1: morphology.thresholds: missing, give numbers in ascending order or {from = "
-      ", to = , step = }, by field name if several");
+      "s.toml:18:1: morphology.thresholds: missing, give numbers in ascending order, {from = , "
+      "to = , step = } or {quantiles = }, by field name if several");
   EXPECT_EQ(
       problems(small_scene(on + "fields = [\"speed\"]\nthresholds = [1, 2, 2]\n")),
       "s.toml:21:21: morphology.thresholds: found 2, allowed numbers in ascending order, here > "
@@ -252,6 +252,16 @@ TEST(Contradictions, ThresholdRanges) {
       "at most 65534 thresholds");
   EXPECT_EQ(problems(small_scene(speed + "{ from = 2, to = 3, step = 0 }\n")),
             "s.toml:20:41: morphology.thresholds.step: found 0, allowed a number > 0");
+  const std::string shares = "allowed shares of the material from 0 to 1";
+  EXPECT_EQ(problems(small_scene(speed + "{ quantiles = [0.5, 1.5] }\n")),
+            "s.toml:20:28: morphology.thresholds.quantiles: found 1.5, " + shares);
+  EXPECT_EQ(problems(small_scene(speed + "{ quantiles = [-0.5, 1.5] }\n")),
+            "s.toml:20:28: morphology.thresholds.quantiles: found -0.5, " + shares);
+  EXPECT_EQ(problems(small_scene(speed + "{ quantiles = [0.5], step = 1 }\n")),
+            "s.toml:20:35: morphology.thresholds.step: unknown key, allowed quantiles");
+  EXPECT_EQ(problems(small_scene(speed + "[1]\nhot_spots = { quantiles = [0.5], from = 0, to = 1, "
+                                         "step = 1 }\n")),
+            "s.toml:21:15: morphology.hot_spots.quantiles: unknown key, allowed from, to, step");
 }
 
 TEST(Contradictions, Pixel) {

@@ -168,6 +168,16 @@ TEST(Scenes, Thresholds) {
   EXPECT_EQ(levels("{ from = 5, to = 5, step = 1 }"), std::vector<double>{5.0});
   EXPECT_EQ(levels("{ speed = { from = 1, to = 2, step = 1 } }"), (std::vector<double>{1.0, 2.0}));
 
+  const Scene shares = parse(small_scene(
+      "[morphology]\nfields = [\"speed\", \"density\"]\nthresholds = { speed = { quantiles = [0, "
+      "0.5, 1] }, density = { quantiles = { from = 0.25, to = 0.75, step = 0.25 } } }\n"));
+  EXPECT_EQ(shares.morphology.fields[0].quantiles, (std::vector<double>{0.0, 0.5, 1.0}));
+  EXPECT_EQ(shares.morphology.fields[1].quantiles, (std::vector<double>{0.25, 0.5, 0.75}));
+  EXPECT_TRUE(shares.morphology.fields[1].thresholds.empty());
+  expect_round_trip(shares);
+  const Scene share = parse(small_scene(speed + "{ quantiles = [0.5] }\n"));
+  EXPECT_EQ(share.morphology.fields[0].quantiles, std::vector<double>{0.5});
+
   const Scene scene = parse(rich_2d);
   ASSERT_EQ(scene.morphology.fields.size(), 2u);
   EXPECT_EQ(scene.morphology.fields[0].name, "pressure");

@@ -5,6 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
@@ -97,6 +98,21 @@ class Report(unittest.TestCase):
         self.assertEqual((area[0], peak[-1]), (1e-10, 840.0))
         (self.folder / "morphology_000020.h5").unlink()
         self.assertEqual(len(folder.read_hot_spots(self.folder)[0]), 19)
+
+    def test_quantiles_are_named_as_such(self):
+        write_output(self.folder)
+        self.assertIsNone(folder.read_levels(self.folder))
+        for path in self.folder.glob("morphology_*.h5"):
+            with h5py.File(path, "r+") as file:
+                group = file["temperature"]
+                group["level"] = [THRESHOLDS]
+                group["threshold"][...] = numpy.linspace(0.0, 1.0, len(THRESHOLDS))
+        self.assertEqual(folder.read_levels(self.folder).shape, (21, len(THRESHOLDS)))
+        _, threshold, _ = folder.read_morphology(self.folder)
+        shown, title = figures.shown_thresholds(self.folder, threshold, 300.0)
+        self.assertEqual((shown[0], shown[-1], title), ((0, "0"), (len(THRESHOLDS) - 1, "1"), "share of colder material"))
+        self.assertIn("the quantile 1", figures.unresolved(self.folder, 300.0))
+        self.assertEqual(figures.morphology_time(self.folder, 300.0).axes[0].get_legend().get_title().get_text(), title)
 
     def test_narrow_samples_are_stretched_and_wide_ones_are_not(self):
         for width, height in ((1e-3, 5e-3), (0.5e-3, 2.5e-3), (1e-3, 1e-3), (5e-3, 1e-3)):

@@ -6,6 +6,8 @@ import textwrap
 import unittest
 from pathlib import Path
 
+import numpy
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 from fake_output import write_output  # noqa: E402
 from poreshock_paper import sweep  # noqa: E402
@@ -126,6 +128,12 @@ class Sweep(unittest.TestCase):
         self.assertEqual(float(rows[0]["wall_seconds"]), 123.5)
         self.assertLess(float(rows[0]["energy drift [1]"]), 1e-9)
         self.assertGreater(float(rows[0]["end of loading [s]"]), 0.0)
+
+    def test_end_of_loading_at_quantiles(self):
+        """The areas stay as they are; the values tell the hottest record."""
+        levels = numpy.array([[300.0, 310.0], [330.0, 350.0], [320.0, 365.0], [numpy.nan, numpy.nan]])
+        areas = numpy.tile([0.75, 0.25], (4, 1))
+        self.assertEqual(sweep.end_of_loading(numpy.arange(4.0), numpy.array([0.25, 0.75]), areas, levels), 2)
 
 
 if __name__ == "__main__":

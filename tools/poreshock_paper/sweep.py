@@ -171,8 +171,12 @@ def run(folder, cases, ranks, jobs, program, say=print):
     return failed
 
 
-def end_of_loading(times, thresholds, area):
-    """Number of the record in which the mean of the field above the lowest threshold is largest."""
+def end_of_loading(times, thresholds, area, levels=None):
+    """Number of the record in which the mean of the field above the lowest threshold is largest. `levels` are the
+    values at thresholds that are quantiles, of which the lowest moves too and is added where it is reached."""
+    if levels is not None:
+        steps = (0.5 * (area[:, 1:] + area[:, :-1]) * numpy.diff(levels)).sum(axis=1)
+        return int(numpy.nanargmax(levels[:, 0] * area[:, 0] + steps))
     mean = 0.5 * (area[:, 1:] + area[:, :-1]) @ numpy.diff(thresholds) if len(thresholds) > 1 else area[:, 0]
     return int(numpy.argmax(mean))
 
@@ -190,7 +194,7 @@ def row_of(folder, case):
     row |= {f"{name} at the end [{units[name]}]": values[-1] for name, values in columns.items()}
     try:
         times, thresholds, arrays = reader.read_morphology(target, names=("A",))
-        row["end of loading [s]"] = times[end_of_loading(times, thresholds, arrays["A"])]
+        row["end of loading [s]"] = times[end_of_loading(times, thresholds, arrays["A"], reader.read_levels(target))]
     except reader.Missing:
         pass  # a run without morphology has none
     return row

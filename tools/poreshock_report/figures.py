@@ -122,17 +122,26 @@ def nearest_rises(threshold, start):
     return [(i, f"{threshold[i] - start:.4g} K") for i in indices]
 
 
+def shown_thresholds(folder, threshold, start):
+    """[(index, label)] of the thresholds to show, and what they are: rises above `start`, or some of the quantiles."""
+    if reader.read_levels(folder) is None:
+        return nearest_rises(threshold, start), f"threshold - {start:.4g} K"
+    indices = sorted({int(i) for i in numpy.linspace(0, len(threshold) - 1, min(len(threshold), len(RISES))).round()})
+    return [(i, f"{threshold[i]:.4g}") for i in indices], "share of colder material"
+
+
 def morphology_time(folder, start):
     """A, L and chi of the hot area against time (Figure 2 of the paper)."""
     time, threshold, arrays = reader.read_morphology(folder)
+    shown, title = shown_thresholds(folder, threshold, start)
     figure, axes = plt.subplots(3, 1, sharex=True, figsize=(7.0, 8.4), layout="constrained")
     labels = {"A": "area $A$ [-]", "L": "boundary length $L$ [-]",
               "chi": r"Euler characteristic $\chi$ [-]"}
     for axis, (name, label) in zip(axes, labels.items()):
-        for i, rise in nearest_rises(threshold, start):
+        for i, rise in shown:
             axis.plot(1e9 * time, arrays[name][:, i], label=rise)
         axis.set_ylabel(label)
-    axes[0].legend(title=f"threshold - {start:.4g} K", ncols=3, loc="upper left")
+    axes[0].legend(title=title, ncols=3, loc="upper left")
     axes[0].set_ylim(-0.02, 1.05)
     axes[-1].set_xlabel("time [ns]")
     return figure
@@ -141,9 +150,10 @@ def morphology_time(folder, start):
 def morphology_space(folder, start):
     """The same curves in the space of A, L and chi (Figure 3 of the paper)."""
     time, threshold, arrays = reader.read_morphology(folder)
+    shown, title = shown_thresholds(folder, threshold, start)
     figure = plt.figure(figsize=(7.0, 5.6), layout="constrained")
     axis = figure.add_subplot(projection="3d")
-    for i, rise in nearest_rises(threshold, start):
+    for i, rise in shown:
         axis.plot(arrays["A"][:, i], arrays["L"][:, i], arrays["chi"][:, i], marker="o",
                   markersize=2.5, linewidth=1.2, label=rise)
     axis.set_xlabel("$A$", labelpad=8)
@@ -153,18 +163,19 @@ def morphology_space(folder, start):
     axis.locator_params(nbins=5)
     axis.view_init(elev=22, azim=-58)
     axis.set_box_aspect(None, zoom=0.82)
-    axis.legend(title=f"threshold - {start:.4g} K", loc="upper left")
+    axis.legend(title=title, loc="upper left")
     return figure
 
 
 def unresolved(folder, start):
-    """Labels of the rises at which chi4 and chi differ by a quarter of chi or more on the average over the run."""
+    """Labels of the thresholds at which chi4 and chi differ by a quarter of chi or more on the average over the run."""
     _, threshold, arrays = reader.read_morphology(folder, names=("chi", "chi4"))
+    shares = reader.read_levels(folder) is not None
     found = []
-    for i, label in nearest_rises(threshold, start):
+    for i, label in shown_thresholds(folder, threshold, start)[0]:
         apart = numpy.abs(arrays["chi4"][:, i] - arrays["chi"][:, i]).mean()
         if apart > 0.25 * numpy.abs(arrays["chi"][:, i]).mean():
-            found.append(label)
+            found.append(f"the quantile {label}" if shares else f"{label} above the start")
     return found
 
 

@@ -140,7 +140,7 @@ def _read_records(path, field, names):
 
 
 def read_morphology(folder, field="temperature", names=("A", "L", "chi")):
-    """Times (n), thresholds (K) and the named arrays (n x K) of a field."""
+    """Times (n), thresholds (K, in the unit of the field, or quantiles) and the named arrays (n x K) of a field."""
     whole = folder / "morphology.h5"
     paths = [whole] if whole.exists() else sorted(folder.glob("morphology_*.h5"))
     if not paths:
@@ -161,3 +161,11 @@ def read_morphology(folder, field="temperature", names=("A", "L", "chi")):
     arrays = {name: numpy.concatenate([record[2][name] for record in records])[order]
               for name in names}
     return time[order], threshold, arrays
+
+
+def read_levels(folder, field="temperature"):
+    """The values of a field (n x K) at thresholds that are quantiles; None where they are values themselves."""
+    try:
+        return read_morphology(folder, field, names=("level",))[2]["level"]
+    except Missing:
+        return None

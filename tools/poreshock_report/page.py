@@ -83,7 +83,7 @@ def resolution_note(folder, start):
         return ""
     if not poor:
         return ""
-    return (f'<p class="note">Resolution warning: at {html.escape(", ".join(poor))} above the start, chi4 (hot pixels join over '
+    return (f'<p class="note">Resolution warning: at {html.escape(", ".join(poor))}, chi4 (hot pixels join over '
             "sides) and chi (over corners too) differ by a quarter of chi or more while the run lasts: their pattern is "
             "not resolved by the pixels.</p>")
 

@@ -18,7 +18,7 @@ struct AnalyzeOptions {
   std::string mask;                ///< array, not zero = material
   std::string periodic;            ///< lateral axes of an array that wrap: x, y or x,y
   std::string voids;               ///< in chi: black, white, fill or exclude; empty: black
-  bool isoline = false;            ///< lengths of interpolated boundaries too
+  bool isoline = false;            ///< lengths (3-D: areas) of interpolated boundaries too
   double pixel = 0.0;              ///< m; 0: as the scene says, 1 for arrays
   std::string output;              ///< folder
   bool force = false;

@@ -18,6 +18,8 @@ struct Process {
   std::vector<double> threshold;  ///< in the unit of the field, ascending, at least one
   std::vector<std::vector<double>> functionals;  ///< each times x thresholds; the first is the area
                                                  ///< (volume) fraction
+  std::vector<double> level{};  ///< times x thresholds, where thresholds are shares of the
+                                ///< material: the values of the field there
 };
 
 /// Functionals of a process at one threshold over time: a path in the space of functionals.
@@ -43,7 +45,8 @@ double similarity(double distance);
 Path path_at(const Process& process, double threshold);
 
 /// End of loading: the first record with the largest integral of the area fraction over the
-/// thresholds, which is the mean of the field above the lowest one. Release lowers it.
+/// thresholds, which is the mean of the field above the lowest one. Release lowers it. Where
+/// thresholds are shares, their lowest value moves too and is added where it is reached.
 double end_of_loading(const Process& process);
 
 /// Whose end of loading ends a time window.

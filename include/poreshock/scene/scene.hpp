@@ -163,6 +163,8 @@ struct MorphologyField {
   std::string name;  ///< temperature, pressure, density, speed, von_mises, plastic_strain
   std::vector<double> thresholds{};  ///< in the unit of the field, ascending
   std::vector<double> hot_spots{};   ///< thresholds at which every hot domain is listed
+  std::vector<double> quantiles{};   ///< instead of thresholds: shares of the material, 0 ... 1,
+                                     ///< ascending, colder than each threshold
   bool operator==(const MorphologyField&) const = default;
 };
 
@@ -172,7 +174,7 @@ struct Morphology {
   std::vector<MorphologyField> fields;
   MapLattice lattice = MapLattice::eulerian;  ///< pixels in space, or sites of the initial lattice
   MapVoids voids = MapVoids::black;           ///< in the Euler characteristic
-  BoundaryLength length = BoundaryLength::pixels;  ///< isoline: of interpolated boundaries too
+  BoundaryLength length = BoundaryLength::pixels;  ///< isoline: interpolated ones (3-D: areas) too
   bool domains = false;                            ///< count hot and cold domains at all thresholds
   bool operator==(const Morphology&) const = default;
 };
