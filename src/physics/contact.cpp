@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "poreshock/transfer/shape.hpp"
-
 namespace poreshock {
 
 namespace {
@@ -28,6 +26,7 @@ struct Pair {
   Vector<Dim> normal = Vector<Dim>::Zero();  ///< from a to b
   double gap = 0.0;                          ///< m, that may still close
   bool rubs = true;                          ///< false where the normal is only a guess
+  bool slips = false;                        ///< friction is used up
   double push = 0.0;                         ///< kg m/s along the normal, on b
   Vector<Dim> rub = Vector<Dim>::Zero();     ///< kg m/s across it, on b
 };
@@ -90,7 +89,8 @@ double relax_pair(double friction, double closing_time, Pair<Dim>& pair,
   Vector<Dim> rub = pair.rub - slip * reduced;
   const double size = std::sqrt(dot<Dim>(rub, rub));
   const double most = friction * push;
-  if (size > most) rub *= most / size;
+  pair.slips = size > most;
+  if (pair.slips) rub *= most / size;
   const Vector<Dim> more = rub - pair.rub;
   add_impulse<Dim>(more, pair, grains);
   pair.rub = rub;
@@ -165,11 +165,11 @@ void share_heat(std::span<const Pair<Dim>> pairs, std::span<NodeGrain<Dim>> grai
   }
 }
 
-/// All pairs of a node that have a normal, with their gaps.
+/// All pairs of a node that have a normal, with their gaps. `normal`: of two grains, where known.
 template <int Dim>
 int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
-               const FaceTable& faces, std::array<Pair<Dim>, most_pairs>& pairs,
-               ContactReport& report) {
+               const FaceTable& faces, const Vector<Dim>* normal,
+               std::array<Pair<Dim>, most_pairs>& pairs, ContactReport& report) {
   double filled = 0.0;
   for (const NodeGrain<Dim>& g : grains) filled += g.volume;
   // Over the space of a node inside the domain: beyond a wall only a sliver of it is left.
@@ -183,7 +183,11 @@ int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& se
     for (int b = a + 1; b < static_cast<int>(grains.size()); ++b) {
       Pair<Dim>& pair = pairs[static_cast<std::size_t>(count)];
       pair = {.a = a, .b = b};
-      if (!set_normal<Dim>(grains[a], grains[b], settings.cell, grains.size() > 2, pair)) continue;
+      if (normal != nullptr && grains.size() == 2) {
+        pair.normal = *normal;
+      } else if (!set_normal<Dim>(grains[a], grains[b], settings.cell, grains.size() > 2, pair)) {
+        continue;
+      }
       const double gap = pair_gap<Dim>(grains[a], grains[b], filled, settings, faces);
       report.least_gap = std::min(report.least_gap, gap);
       if (settings.gap_test) pair.gap = gap;
@@ -195,81 +199,12 @@ int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& se
 
 }  // namespace
 
-FaceTable::FaceTable(const Transfer& transfer) {
-  // The shape function on a fine grid, and its integral by Simpson's rule.
-  constexpr int steps = 2048;
-  std::array<double, steps + 1> weight{}, filled{};
-  double half = 0.0;
-  with_shape(transfer, [&]<class Shape>(const Shape& shape) {
-    half = 0.5 * Shape::width;
-    const auto value = [&](double x) {
-      const double s = 10.0 + x;  // of the particle; node 11 lies at s = 10
-      const int base = Shape::base(s);
-      const int k = 11 - base;
-      return k >= 0 && k < Shape::width ? axis_weights(shape, s, base).value[k] : 0.0;
-    };
-    const double h = 2.0 * half / steps;
-    for (int i = 0; i <= steps; ++i) {
-      weight[i] = value(-half + h * i);
-      if (i == 0) continue;
-      const double middle = value(-half + h * (i - 0.5));
-      filled[i] = filled[i - 1] + h / 6.0 * (weight[i - 1] + 4.0 * middle + weight[i]);
-    }
-  });
-  // In the fourth root of the share the tails of all shape functions are smooth.
-  int i = 1;
-  for (int k = 0; k <= intervals; ++k) {
-    const double root = greatest_root * k / intervals;
-    const double share = std::min((root * root) * (root * root), 0.5) * filled[steps];
-    while (i < steps && filled[i] < share) ++i;
-    const double width = filled[i] - filled[i - 1];
-    const double t = width > 0.0 ? std::clamp((share - filled[i - 1]) / width, 0.0, 1.0) : 0.0;
-    density_[k] = weight[i - 1] + t * (weight[i] - weight[i - 1]);
-  }
-}
-
-double FaceTable::density(double share) const {
-  const double smaller = std::clamp(std::min(share, 1.0 - share), 0.0, 0.5);
-  const double x = std::sqrt(std::sqrt(smaller)) * (intervals / greatest_root);
-  const int k = std::min(static_cast<int>(x), intervals - 1);
-  return density_[k] + (x - k) * (density_[k + 1] - density_[k]);
-}
-
-double touching_gap(double strain) {
-  // Beds of discs with 10 cells across, at 500 to 2000 m/s: with 0.05 throughout the grains overlap
-  // by 1.5 to 2 % of the volume, whatever the friction, with this by less than 0.4 %. Blocks and
-  // discs that slide undeformed plough with more than 0.05.
-  constexpr double fresh = 0.05, strained = 0.15;  // cells
-  constexpr double full_strain = 0.1;
-  return fresh + (strained - fresh) * std::min(strain / full_strain, 1.0);
-}
-
-template <int Dim>
-double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
-                const ContactSettings& settings, const FaceTable& faces) {
-  const double both = a.volume + b.volume;
-  if (!(both > 0.0)) return std::numeric_limits<double>::infinity();
-  const Vector<Dim> difference = (a.gradient - b.gradient) * 0.5;
-  const double area = std::sqrt(dot<Dim>(difference, difference));
-  const double touching =
-      touching_gap((a.strain * a.volume + b.strain * b.volume) / both) * settings.cell;
-  // Touching flat faces that fill only part of the node, at an edge or beside other grains, still
-  // have the area that belongs to the ratio of their volumes.
-  const double density = faces.density(a.volume / both);
-  const double missing_in_node = settings.capacity - filled;
-  const double missing_in_pair = area * settings.cell - both * density;
-  const double missing = std::min(missing_in_node * density, missing_in_pair);
-  if (!(missing > touching * area * density)) return 0.0;
-  return area > 0.0 && density > 0.0 ? missing / (area * density) - touching
-                                     : std::numeric_limits<double>::infinity();
-}
-
 template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
-                              const FaceTable& faces) {
+                              const FaceTable& faces, const Vector<Dim>* normal) {
   ContactReport report;
   std::array<Pair<Dim>, most_pairs> storage;
-  const int count = find_pairs<Dim>(grains, settings, faces, storage, report);
+  const int count = find_pairs<Dim>(grains, settings, faces, normal, storage, report);
   const std::span<Pair<Dim>> pairs(storage.data(), static_cast<std::size_t>(count));
   std::array<Vector<Dim>, most_grains_at_node> before;
   for (std::size_t g = 0; g < grains.size(); ++g) before[g] = grains[g].end;
@@ -281,13 +216,33 @@ ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSet
   return report;
 }
 
-template double pair_gap<2>(const NodeGrain<2>&, const NodeGrain<2>&, double,
-                            const ContactSettings&, const FaceTable&);
-template double pair_gap<3>(const NodeGrain<3>&, const NodeGrain<3>&, double,
-                            const ContactSettings&, const FaceTable&);
+template <int Dim>
+int find_ties(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
+              const FaceTable& faces, const Vector<Dim>* normal, NodeTies<Dim>& ties) {
+  ContactReport report;
+  std::array<Pair<Dim>, most_pairs> storage;
+  const int count = find_pairs<Dim>(grains, settings, faces, normal, storage, report);
+  const std::span<Pair<Dim>> pairs(storage.data(), static_cast<std::size_t>(count));
+  std::array<NodeGrain<Dim>, most_grains_at_node> moved;
+  std::copy(grains.begin(), grains.end(), moved.begin());
+  relax_pairs<Dim>(settings, pairs, std::span<NodeGrain<Dim>>(moved.data(), grains.size()));
+  int tied = 0;
+  for (const Pair<Dim>& pair : pairs) {
+    if (!(pair.push > 0.0) || pair.gap > 0.0) continue;
+    const bool rubs = settings.friction > 0.0 && pair.rubs;
+    ties[static_cast<std::size_t>(tied++)] = {pair.a, pair.b, pair.normal, rubs && !pair.slips};
+  }
+  return tied;
+}
+
 template ContactReport resolve_contact<2>(std::span<NodeGrain<2>>, const ContactSettings&,
-                                          const FaceTable&);
+                                          const FaceTable&, const Vector<2>*);
 template ContactReport resolve_contact<3>(std::span<NodeGrain<3>>, const ContactSettings&,
-                                          const FaceTable&);
+                                          const FaceTable&, const Vector<3>*);
+
+template int find_ties<2>(std::span<const NodeGrain<2>>, const ContactSettings&, const FaceTable&,
+                          const Vector<2>*, NodeTies<2>&);
+template int find_ties<3>(std::span<const NodeGrain<3>>, const ContactSettings&, const FaceTable&,
+                          const Vector<3>*, NodeTies<3>&);
 
 }  // namespace poreshock

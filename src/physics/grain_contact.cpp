@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "poreshock/transfer/node_lanes.hpp"
+#include "node_entries.hpp"
 
 namespace poreshock {
 
@@ -34,47 +34,9 @@ double share_inside(int index, int count, bool periodic, double beyond) {
   return from_side == 2 ? 1.0 - beyond : 1.0;
 }
 
-/// A field at a node and where its results go.
-template <int Dim>
-struct Entry {
-  NodeGrain<Dim> grain;
-  Lanes* motion = nullptr;
-  Lanes* surface = nullptr;
-};
-
-/// Order that does not know the numbers of the fields.
-template <int Dim>
-bool comes_before(const Entry<Dim>& a, const Entry<Dim>& b) {
-  if (a.grain.mass != b.grain.mass) return a.grain.mass > b.grain.mass;
-  for (int k = 0; k < Dim; ++k) {
-    if (a.grain.end[k] != b.grain.end[k]) return a.grain.end[k] < b.grain.end[k];
-  }
-  for (int k = 0; k < Dim; ++k) {
-    if (a.grain.place[k] != b.grain.place[k]) return a.grain.place[k] < b.grain.place[k];
-  }
-  return false;
-}
-
-template <int Dim>
-NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
-  using Motion = MotionLane<Dim>;
-  using Surface = SurfaceLane<Dim>;
-  NodeGrain<Dim> grain;
-  grain.mass = motion[Motion::mass];
-  grain.volume = surface[Surface::volume];
-  grain.strain = grain.volume > 0.0 ? surface[Surface::strain] / grain.volume : 0.0;
-  for (int a = 0; a < Dim; ++a) {
-    grain.start[a] = motion[Motion::start_velocity + a];
-    grain.end[a] = motion[Motion::end_velocity + a];
-    grain.gradient[a] = surface[Surface::gradient + a];
-    grain.place[a] = grain.volume > 0.0 ? surface[Surface::place + a] / grain.volume : 0.0;
-  }
-  return grain;
-}
-
 /// Largest component of the sum of all impulses at a node, over that of their sizes.
 template <int Dim>
-double momentum_residual(const std::array<Entry<Dim>, most_grains_at_node>& entries, int count) {
+double momentum_residual(const Entries<Dim>& entries, int count) {
   using Motion = MotionLane<Dim>;
   double worst = 0.0;
   for (int a = 0; a < Dim; ++a) {
@@ -104,25 +66,17 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
 
 template <int Dim>
 void collide_node(const std::vector<ContactField>& fields, int row, int node, bool owned,
-                  const ContactSettings& settings, const FaceTable& faces, NodeLedger& ledger,
+                  const ContactSettings& settings, const FaceTable& faces,
+                  std::span<const NodePoint<Dim>> points, NodeLedger& ledger,
                   ContactSummary& summary) {
-  std::array<Entry<Dim>, most_grains_at_node> entries;
-  int count = 0;
-  for (const ContactField& field : fields) {
-    Lanes& motion = field.motion->row(row)[node];
-    if (!(motion[MotionLane<Dim>::mass] > 0.0) || count == most_grains_at_node) continue;
-    Lanes& surface = field.surface->row(row)[node];
-    const Entry<Dim> entry{read_grain<Dim>(motion, surface), &motion, &surface};
-    int place = count++;
-    for (; place > 0 && comes_before<Dim>(entry, entries[place - 1]); --place) {
-      entries[place] = entries[place - 1];
-    }
-    entries[place] = entry;
-  }
+  Entries<Dim> entries;
+  const int count = read_entries<Dim>(fields, row, node, entries);
   std::array<NodeGrain<Dim>, most_grains_at_node> grains;
   for (int k = 0; k < count; ++k) grains[k] = entries[k].grain;
+  Vector<Dim> normal;
   const ContactReport report = resolve_contact<Dim>(
-      std::span<NodeGrain<Dim>>(grains.data(), static_cast<std::size_t>(count)), settings, faces);
+      std::span<NodeGrain<Dim>>(grains.data(), static_cast<std::size_t>(count)), settings, faces,
+      parting<Dim>(points, entries, count, normal));
   for (int k = 0; k < count; ++k) entries[k].grain = grains[k];
   if (owned) {
     ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
@@ -171,18 +125,14 @@ template <int Dim>
 ContactSummary collide_grains(const std::vector<ContactField>& fields,
                               const std::vector<bool>& shared, const Scene& scene,
                               ContactSettings settings, const FaceTable& faces,
-                              NodeLedger& ledger) {
+                              const NodePoints<Dim>& points, NodeLedger& ledger) {
   const SlabGrid& grid = *fields.front().motion;
-  const GridShape& shape = grid.shape();
   ContactSummary summary;
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
-    for (int i = 0; i < shape.row_size; ++i) {
-      if (!shared[at + i]) continue;
-      settings.capacity = node_capacity(shape, scene.transfer, row, i);
-      collide_node<Dim>(fields, row, i, row < grid.last_row(), settings, faces, ledger, summary);
-    }
-  }
+  for_each_shared(grid, shared, scene, settings,
+                  [&](int row, int i, std::size_t number, const ContactSettings& here) {
+                    collide_node<Dim>(fields, row, i, row < grid.last_row(), here, faces,
+                                      points_of(points, number), ledger, summary);
+                  });
   return summary;
 }
 
@@ -221,9 +171,9 @@ template void settle_contact_heat<3>(const std::vector<ContactField>&, const std
                                      NodeLedger&);
 template ContactSummary collide_grains<2>(const std::vector<ContactField>&,
                                           const std::vector<bool>&, const Scene&, ContactSettings,
-                                          const FaceTable&, NodeLedger&);
+                                          const FaceTable&, const NodePoints<2>&, NodeLedger&);
 template ContactSummary collide_grains<3>(const std::vector<ContactField>&,
                                           const std::vector<bool>&, const Scene&, ContactSettings,
-                                          const FaceTable&, NodeLedger&);
+                                          const FaceTable&, const NodePoints<3>&, NodeLedger&);
 
 }  // namespace poreshock

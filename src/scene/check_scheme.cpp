@@ -92,6 +92,8 @@ void check_self_contact(const Scene& scene, Report& report) {
     allowed = "false with transfer.velocity = \"fmpm\": its filter would weld the walls";
   } else if (scene.transfer.update == VelocityUpdate::musl) {
     allowed = "false with transfer.update = \"musl\": contact acts once in a step";
+  } else if (scene.contact.normal == ContactNormal::regression) {
+    allowed = "false with contact.normal = \"regression\": that parts grains, not sides of one";
   }
   if (!allowed.empty()) add_problem("contact.self", "found true, allowed " + allowed, report);
 }

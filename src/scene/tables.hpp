@@ -76,10 +76,15 @@ void visit_conduction(Visitor& visitor, Conduction& conduction) {
 template <typename Visitor>
 void visit_contact(Visitor& visitor, Contact& contact) {
   const Names<GapTest> tests{{"volume", GapTest::volume}, {"none", GapTest::none}};
+  const Names<ContactNormal> normals{{"gradients", ContactNormal::gradients},
+                                     {"regression", ContactNormal::regression}};
   visitor.number("friction", contact.friction,
                  {not_negative, "", "coefficient of Coulomb friction; 1e30 = stick"});
   choice(visitor, "gap", contact.gap, tests,
          {"contact where grains fill a node's space, or wherever they approach"});
+  choice(visitor, "normal", contact.normal, normals,
+         {"of two grains: from the gradients of their volumes, or of the plane that parts their "
+          "particles"});
   visitor.flag("self", contact.self,
                {"true where opposite walls of voids in one grain meet as two grains do"});
 }

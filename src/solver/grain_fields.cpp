@@ -7,6 +7,7 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/solver/simulation.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/node_points.hpp"
 #include "poreshock/transfer/surfaces.hpp"
 #include "poreshock/transfer/sweep.hpp"
 #include "split_fields.hpp"
@@ -45,18 +46,6 @@ void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrd
                         all.order.begin() + all.start[c + 1]);
   }
   result.start.back() = static_cast<std::uint32_t>(result.order.size());
-}
-
-/// Node of a row that stands for node i across periodic sides.
-int original_node(const GridShape& shape, int i) {
-  const auto original = [](int k, int nodes, bool periodic) {
-    if (!periodic) return k;
-    if (k == 0) return nodes - 3;
-    return k >= nodes - 2 ? k - (nodes - 3) : k;
-  };
-  const int x = original(i % shape.nodes[0], shape.nodes[0], shape.periodic[0]);
-  if (shape.dimension == 2) return x;
-  return original(i / shape.nodes[0], shape.nodes[1], shape.periodic[1]) * shape.nodes[0] + x;
 }
 
 /// True for the stencil cells of this slab that reach a shared node.
@@ -101,6 +90,47 @@ std::vector<ContactField> contact_fields(const GrainFields& all) {
     fields.push_back({f.grid, f.surfaces});
   }
   return fields;
+}
+
+/// What collisions need: the fields that may collide, and the particles around the nodes they share
+/// where normals come from them.
+template <int Dim>
+struct Surfaces {
+  std::vector<ContactField> fields;
+  NodePoints<Dim> points;
+};
+
+/// Surfaces of all fields at the nodes they share.
+template <int Dim>
+Surfaces<Dim> find_surfaces(Simulation<Dim>& sim) {
+  GrainFields& all = sim.grain_fields;
+  Surfaces<Dim> surfaces = {contact_fields(all), {}};
+  all.shared = shared_nodes(surfaces.fields, MotionLane<Dim>::mass);
+  const std::vector<bool> near = cells_at(all.shared, *sim.grid);
+  CellOrder chosen;
+  for (const VelocityField& f : all.fields) {
+    choose_cells(f.cells, near, chosen);
+    scatter_surfaces(sim.particles, chosen, sim.scene.transfer, *f.surfaces);
+    f.surfaces->exchange();
+  }
+  if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::surfaces));
+  if (sim.scene.contact.normal == ContactNormal::regression) {
+    choose_cells(sim.cells, near, chosen);
+    std::vector<CellPoint<Dim>> points =
+        collect_points<Dim>(sim.particles, chosen, all.colours, *sim.grid);
+    exchange_points<Dim>(*sim.grid, points);
+    surfaces.points = points_at_nodes<Dim>(points, all.shared, *sim.grid);
+  }
+  return surfaces;
+}
+
+template <int Dim>
+ContactSettings contact_settings(double dt, const Simulation<Dim>& sim) {
+  return {.friction = sim.scene.contact.friction,
+          .gap_test = sim.scene.contact.gap == GapTest::volume,
+          .cell = sim.scene.domain.cell,
+          .closing_time = closing_time(dt, sim),
+          .capacity = 0.0};
 }
 
 }  // namespace
@@ -181,34 +211,35 @@ std::vector<std::int32_t> particle_colours(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
+void find_ties(double dt, Simulation<Dim>& sim) {
+  const Surfaces<Dim> surfaces = find_surfaces(sim);
+  sim.ties = tie_grains<Dim>(surfaces.fields, sim.grain_fields.shared, sim.scene,
+                             contact_settings(dt, sim), *sim.grain_fields.faces, surfaces.points);
+}
+
+template <int Dim>
+void tie_starts(Simulation<Dim>& sim) {
+  tie_momenta<Dim>(contact_fields(sim.grain_fields), sim.ties);
+}
+
+template <int Dim>
 void collide(double dt, Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
   all.summary = {};
   if (all.fields.empty()) return;
-  const std::vector<ContactField> fields = contact_fields(all);
-  all.shared = shared_nodes(fields, MotionLane<Dim>::mass);
-  const std::vector<bool> near = cells_at(all.shared, *sim.grid);
-  CellOrder chosen;
-  for (const VelocityField& f : all.fields) {
-    choose_cells(f.cells, near, chosen);
-    scatter_surfaces(sim.particles, chosen, sim.scene.transfer, *f.surfaces);
-    f.surfaces->exchange();
-  }
-  if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::surfaces));
-  const ContactSettings settings{.friction = sim.scene.contact.friction,
-                                 .gap_test = sim.scene.contact.gap == GapTest::volume,
-                                 .cell = sim.scene.domain.cell,
-                                 .closing_time = closing_time(dt, sim),
-                                 .capacity = 0.0};
+  const Surfaces<Dim> surfaces = find_surfaces(sim);
   all.summary =
-      collide_grains<Dim>(fields, all.shared, sim.scene, settings, *all.faces, sim.ledger.nodes);
+      collide_grains<Dim>(surfaces.fields, all.shared, sim.scene, contact_settings(dt, sim),
+                          *all.faces, surfaces.points, sim.ledger.nodes);
 }
 
 template <int Dim>
 void finish_contact(Simulation<Dim>& sim) {
   const GrainFields& all = sim.grain_fields;
   if (all.fields.empty()) return;
-  settle_contact_heat<Dim>(contact_fields(all), all.shared, sim.ledger.nodes);
+  const std::vector<ContactField> fields = contact_fields(all);
+  settle_tie_heat<Dim>(fields, sim.ties, sim.ledger.nodes);
+  settle_contact_heat<Dim>(fields, all.shared, sim.ledger.nodes);
 }
 
 template <int Dim>
@@ -231,6 +262,10 @@ template void find_grains<2>(Simulation<2>&);
 template void find_grains<3>(Simulation<3>&);
 template void split_by_colour<2>(Simulation<2>&);
 template void split_by_colour<3>(Simulation<3>&);
+template void find_ties<2>(double, Simulation<2>&);
+template void find_ties<3>(double, Simulation<3>&);
+template void tie_starts<2>(Simulation<2>&);
+template void tie_starts<3>(Simulation<3>&);
 template void collide<2>(double, Simulation<2>&);
 template void collide<3>(double, Simulation<3>&);
 template void finish_contact<2>(Simulation<2>&);

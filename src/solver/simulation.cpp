@@ -107,6 +107,48 @@ void average_dilatations(Simulation<Dim>& sim) {
   });
 }
 
+/// Particles of all fields to their nodes.
+template <int Dim>
+void sum_particles(Simulation<Dim>& sim) {
+  if (sim.scene.transfer.averaging > 0.0) average_pressures(sim);
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+    {
+      const Phase phase(sim.phases, PhaseName::particles_to_grid);
+      particles_to_grid(sim.particles, cells, sim.scene.transfer, averages, grid);
+    }
+    const Phase phase(sim.phases, PhaseName::exchange);
+    grid.exchange();
+  });
+}
+
+/// FMPM: contact of the velocities before the filter tells what grains its increments may not part
+/// or push into each other. Its impulses move nothing and belong to no ledger.
+template <int Dim>
+void tie_filter(double dt, Simulation<Dim>& sim) {
+  sim.ties = {};
+  if (sim.grain_fields.fields.empty()) return;
+  sum_particles(sim);
+  const Phase phase(sim.phases, PhaseName::contact);
+  NodeLedger scratch;
+  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+    integrate_momentum<Dim>(sim.body_force, false, dt, grid, scratch);
+  });
+  find_ties(dt, sim);
+}
+
+/// FMPM: filters the velocities of the particles of all fields.
+template <int Dim>
+void filter_velocities(Simulation<Dim>& sim) {
+  const Phase phase(sim.phases, PhaseName::filter);
+  std::vector<FilterField> fields;
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid*) {
+    fields.push_back({&cells, &grid});
+  });
+  filter_velocity<Dim>(fields, sim.ties, sim.scene.transfer,
+                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
+                       sim.ledger.transfer_heat);
+}
+
 /// Momentum, contact and boundaries on the nodes of all velocity fields.
 template <int Dim>
 void update_grids(double dt, Simulation<Dim>& sim) {
@@ -115,6 +157,7 @@ void update_grids(double dt, Simulation<Dim>& sim) {
   {
     const Phase phase(sim.phases, PhaseName::grid_update);
     join_fields(sim);
+    tie_starts(sim);
     for_each_side(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
       integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, grid, ledger);
     });
@@ -145,11 +188,8 @@ void advance(Simulation<Dim>& sim, double dt) {
   sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
   split_by_colour(sim);
   if (transfer.velocity == VelocityTransfer::fmpm) {
-    const Phase phase(sim.phases, PhaseName::filter);
-    for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid*) {
-      filter_velocity(cells, transfer, sim.ledger.nodes.inverse_energy_quantum, grid, sim.particles,
-                      sim.step_data, sim.ledger.transfer_heat);
-    });
+    tie_filter(dt, sim);
+    filter_velocities(sim);
   }
   if (sim.heat) {
     // At the start of the step density, energy and position belong together and the sort holds; the
@@ -159,15 +199,7 @@ void advance(Simulation<Dim>& sim, double dt) {
                  sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
                  sim.ledger.conduction);
   }
-  if (averaging) average_pressures(sim);
-  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
-    {
-      const Phase phase(sim.phases, PhaseName::particles_to_grid);
-      particles_to_grid(sim.particles, cells, transfer, averages, grid);
-    }
-    const Phase phase(sim.phases, PhaseName::exchange);
-    grid.exchange();
-  });
+  sum_particles(sim);
   update_grids(dt, sim);
   if (averaging) average_dilatations(sim);
   StressReport report;

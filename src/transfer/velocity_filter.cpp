@@ -40,16 +40,50 @@ void scatter_residual(const Spline& spline, const Particles<Dim>& particles, con
       grid);
 }
 
-/// Sums to means; fills periodic images.
+/// Sums to means.
 template <int Dim>
 void divide_by_mass(SlabGrid& grid) {
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    Lanes* nodes = grid.row(row);
+    for (int i = 0; i < grid.shape().row_size; ++i) {
+      const double mass = nodes[i][ResidualLane<Dim>::mass];
+      if (mass > 0.0) nodes[i] = nodes[i] / mass;
+    }
+  }
+}
+
+/// Means to what the ties leave of them; mean squares grow by twice what brings the variance about
+/// the old mean to that about the new one.
+template <int Dim>
+void apply_ties(const TiedNodes<Dim>& tied, std::span<const FilterField> fields) {
+  using Lane = ResidualLane<Dim>;
+  for (const TiedNode<Dim>& node : tied.nodes) {
+    std::array<Lanes*, most_colours> lanes{};
+    FieldNumbers<Dim> mean;
+    for (int f = 0; f < node.count; ++f) {
+      lanes[f] = &fields[static_cast<std::size_t>(node.field[f])].grid->row(node.row)[node.lateral];
+      for (int a = 0; a < Dim; ++a) mean[f][a] = (*lanes[f])[Lane::velocity + a];
+    }
+    const FieldNumbers<Dim> held = tie_velocities<Dim>(tied, node, mean);
+    for (int f = 0; f < node.count; ++f) {
+      double more = 0.0;
+      for (int a = 0; a < Dim; ++a) {
+        (*lanes[f])[Lane::velocity + a] = held[f][a];
+        more += held[f][a] * (held[f][a] - mean[f][a]);
+      }
+      (*lanes[f])[Lane::square] += 2.0 * more;
+    }
+  }
+}
+
+/// Squares of the means and variances about them; fills periodic images.
+template <int Dim>
+void finish_means(SlabGrid& grid) {
   using Lane = ResidualLane<Dim>;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     Lanes* nodes = grid.row(row);
     for (int i = 0; i < grid.shape().row_size; ++i) {
-      const double mass = nodes[i][Lane::mass];
-      if (!(mass > 0.0)) continue;
-      nodes[i] = nodes[i] / mass;
+      if (!(nodes[i][Lane::mass] > 0.0)) continue;
       const double mean_square = nodes[i][Lane::square];
       double square = 0.0;
       for (int a = 0; a < Dim; ++a) {
@@ -97,40 +131,55 @@ void subtract_average(const Spline& spline, const Particles<Dim>& particles, con
       });
 }
 
+/// Places of the particles of a field that are awake.
+std::span<const std::uint32_t> awake_places(const FilterField& field) {
+  const CellOrder& cells = *field.cells;
+  const RowRange rows = awake_rows(cells, *field.grid);
+  const std::uint32_t first = first_place(cells, *field.grid, rows.first);
+  return {cells.order.data() + first, first_place(cells, *field.grid, rows.last) - first};
+}
+
 }  // namespace
 
 template <int Dim>
-void filter_velocity(const CellOrder& cells, const Transfer& transfer, double inverse_quantum,
-                     SlabGrid& grid, Particles<Dim>& particles, StepData<Dim>& step,
-                     Int128& filter_heat) {
-  const RowRange rows = awake_rows(cells, grid);
-  const std::span places(
-      cells.order.data() + first_place(cells, grid, rows.first),
-      first_place(cells, grid, rows.last) - first_place(cells, grid, rows.first));
-  for (int a = 0; a < Dim; ++a) {
-    step.residual[a].resize(particles.size());
-    for (const std::uint32_t p : places) step.residual[a][p] = particles.velocity[a][p];
-  }
+void filter_velocity(std::span<const FilterField> fields, const TiedNodes<Dim>& tied,
+                     const Transfer& transfer, double inverse_quantum, Particles<Dim>& particles,
+                     StepData<Dim>& step, Int128& filter_heat) {
+  for (int a = 0; a < Dim; ++a) step.residual[a].resize(particles.size());
   step.filter_heat.resize(particles.size());
-  for (const std::uint32_t p : places) step.filter_heat[p] = 0.0;
+  for (const FilterField& field : fields) {
+    for (const std::uint32_t p : awake_places(field)) {
+      for (int a = 0; a < Dim; ++a) step.residual[a][p] = particles.velocity[a][p];
+      step.filter_heat[p] = 0.0;
+    }
+  }
   with_shape(transfer, [&](const auto& spline) {
     for (int applied = 0; applied < transfer.order; ++applied) {
-      scatter_residual<Dim>(spline, particles, cells, step, grid);
-      grid.exchange();
-      divide_by_mass<Dim>(grid);
-      subtract_average<Dim>(spline, particles, cells, transfer.order, applied, grid, step);
+      for (const FilterField& field : fields) {
+        scatter_residual<Dim>(spline, particles, *field.cells, step, *field.grid);
+        field.grid->exchange();
+        divide_by_mass<Dim>(*field.grid);
+      }
+      apply_ties<Dim>(tied, fields);
+      for (const FilterField& field : fields) {
+        finish_means<Dim>(*field.grid);
+        subtract_average<Dim>(spline, particles, *field.cells, transfer.order, applied, *field.grid,
+                              step);
+      }
     }
   });
-  for (const std::uint32_t p : places) {
-    for (int a = 0; a < Dim; ++a) particles.velocity[a][p] -= step.residual[a][p];
-    particles.internal_energy[p] += step.filter_heat[p];
-    filter_heat += quantise(particles.mass[p] * step.filter_heat[p], inverse_quantum);
+  for (const FilterField& field : fields) {
+    for (const std::uint32_t p : awake_places(field)) {
+      for (int a = 0; a < Dim; ++a) particles.velocity[a][p] -= step.residual[a][p];
+      particles.internal_energy[p] += step.filter_heat[p];
+      filter_heat += quantise(particles.mass[p] * step.filter_heat[p], inverse_quantum);
+    }
   }
 }
 
-template void filter_velocity<2>(const CellOrder&, const Transfer&, double, SlabGrid&,
-                                 Particles<2>&, StepData<2>&, Int128&);
-template void filter_velocity<3>(const CellOrder&, const Transfer&, double, SlabGrid&,
-                                 Particles<3>&, StepData<3>&, Int128&);
+template void filter_velocity<2>(std::span<const FilterField>, const TiedNodes<2>&, const Transfer&,
+                                 double, Particles<2>&, StepData<2>&, Int128&);
+template void filter_velocity<3>(std::span<const FilterField>, const TiedNodes<3>&, const Transfer&,
+                                 double, Particles<3>&, StepData<3>&, Int128&);
 
 }  // namespace poreshock

@@ -60,11 +60,14 @@ TEST(GrainKeys, FrictionBelongsToWalls) {
   EXPECT_EQ(problems(small_scene("[contact]\ngap = \"volumes\"\n")),
             "s.toml:19:7: contact.gap: found \"volumes\", allowed \"volume\" or \"none\", did you "
             "mean \"volume\"?");
+  EXPECT_EQ(problems(small_scene("[contact]\nself = true\nnormal = \"regression\"\n")),
+            "s.toml:19:8: contact.self: found true, allowed false with contact.normal = "
+            "\"regression\": that parts grains, not sides of one");
 }
 
 TEST(GrainKeys, SurviveTheWayThroughText) {
   const std::string text = small_scene(
-      "[contact]\nfriction = 0.25\ngap = \"none\"\n"
+      "[contact]\nfriction = 0.25\ngap = \"none\"\nnormal = \"regression\"\n"
       "[boundary]\nlow = { kind = \"wall\", friction = 0.5 }\n"
       "[[sample.mixture]]\nmaterial = \"aluminium\"\nfraction = 1.0\n");
   std::string grains = text;
@@ -75,6 +78,7 @@ TEST(GrainKeys, SurviveTheWayThroughText) {
   const Scene scene = parse_scene(grains, "s.toml");
   EXPECT_EQ(scene.contact.friction, 0.25);
   EXPECT_EQ(scene.contact.gap, GapTest::none);
+  EXPECT_EQ(scene.contact.normal, ContactNormal::regression);
   EXPECT_EQ(scene.boundary.low.friction, 0.5);
   EXPECT_EQ(scene.sample.image, "a.png");
   EXPECT_EQ(scene.sample.threshold, 99.5);

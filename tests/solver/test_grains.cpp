@@ -33,8 +33,13 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"contact.friction=1e30",
                                                "boundary.low={kind='wall', friction=0.4}"},
                       std::vector<std::string>{"contact.gap=none", "transfer.averaging=0.0"},
+                      std::vector<std::string>{"contact.normal=regression"},
                       std::vector<std::string>{"transfer.velocity=flip", "transfer.damping=1e8"},
                       std::vector<std::string>{"transfer.velocity=fmpm", "transfer.averaging=0.0"},
+                      std::vector<std::string>{"transfer.velocity=fmpm", "transfer.order=2",
+                                               "contact.friction=0.0"},
+                      std::vector<std::string>{"transfer.velocity=fmpm", "contact.friction=1e30",
+                                               "boundary.low={kind='wall', friction=0.4}"},
                       std::vector<std::string>{"thermal=paper", "transfer.shape=quadratic"}));
 
 /// Two boxes, one on the other, that hit a wall; both are grain 0, or the upper one is grain 1.
@@ -84,6 +89,22 @@ std::vector<double> by_id(const Particles<2>& particles, const std::vector<doubl
   return sorted;
 }
 
+/// Particles of two boxes of one grain and of two, to 1e-12. Returns the largest pressure, Pa.
+double expect_one_field(const Simulation<2>& one, const Simulation<2>& two) {
+  const auto difference = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    return largest_difference(by_id(one.particles, a), by_id(two.particles, b));
+  };
+  for (int a = 0; a < 2; ++a) {
+    EXPECT_LE(difference(one.particles.velocity[a], two.particles.velocity[a]), 1e-12 * 500.0);
+    EXPECT_LE(difference(one.particles.position[a], two.particles.position[a]), 1e-12 * 0.48e-3);
+  }
+  const double most =
+      *std::max_element(one.particles.pressure.begin(), one.particles.pressure.end());
+  EXPECT_LE(difference(one.particles.pressure, two.particles.pressure), 1e-12 * most);
+  EXPECT_LE(difference(one.particles.plastic_strain, two.particles.plastic_strain), 1e-12);
+  return most;
+}
+
 // Infinite friction and no gap test in a compression wave: two fields move as one does. With PIC,
 // as nothing but the new nodal velocity moves particles then; in paper mode, as pressure does not
 // know where within a node heat arises.
@@ -97,23 +118,57 @@ TEST(Grains, StickAsOneField) {
   advance_to(120, 0, one);
   advance_to(120, 0, two);
   ASSERT_EQ(two.grain_fields.fields.size(), 2U);
-  for (int a = 0; a < 2; ++a) {
-    EXPECT_LE(largest_difference(by_id(one.particles, one.particles.velocity[a]),
-                                 by_id(two.particles, two.particles.velocity[a])),
-              1e-12 * 500.0);
-    EXPECT_LE(largest_difference(by_id(one.particles, one.particles.position[a]),
-                                 by_id(two.particles, two.particles.position[a])),
-              1e-12 * 0.48e-3);
+  EXPECT_GT(expect_one_field(one, two), 5e9);
+}
+
+/// The upper box falls on the lower one at 500 m/s.
+std::string colliding_text(int upper_grain) {
+  std::string text = stacked_text(upper_grain, 0.0);
+  const std::string loading = "[loading]\nvelocity = 500\n";
+  text.replace(text.find(loading), loading.size(), "velocity = [0.0, -500.0]\n");
+  return text;
+}
+
+// With FMPM the increments of all orders have to keep to the contact as well. Two fields move as
+// one for as long as they press on each other at every node they share: the noise that the filter
+// leaves parts them at the rim in the end, where one field holds tension.
+TEST(Grains, StickAsOneFieldInTheIncrementsOfFmpm) {
+  for (const char* order : {"transfer.order=2", "transfer.order=3", "transfer.order=5"}) {
+    SCOPED_TRACE(order);
+    const std::vector<std::string> scheme = {"transfer.velocity=fmpm", order,
+                                             "transfer.averaging=0.0", "thermal=paper"};
+    Simulation<2> one = start<2>(scene_of(colliding_text(0), scheme), MPI_COMM_SELF);
+    Simulation<2> two = start<2>(scene_of(colliding_text(1), scheme), MPI_COMM_SELF);
+    double pressure = 0.0;
+    int held = 0;
+    for (; held < 50; ++held) {
+      advance_to(held + 1, 0, one);
+      advance_to(held + 1, 0, two);
+      const std::vector<bool>& shared = two.grain_fields.shared;
+      const auto nodes = static_cast<std::size_t>(std::count(shared.begin(), shared.end(), true));
+      ASSERT_GT(nodes, 0U);
+      if (two.ties.directions.size() < 2 * nodes) break;
+      pressure = expect_one_field(one, two);
+    }
+    EXPECT_GE(held, 20);
+    EXPECT_GT(pressure, 3e9);
   }
-  const double most =
-      *std::max_element(one.particles.pressure.begin(), one.particles.pressure.end());
-  EXPECT_GT(most, 5e9);
-  EXPECT_LE(largest_difference(by_id(one.particles, one.particles.pressure),
-                               by_id(two.particles, two.particles.pressure)),
-            1e-12 * most);
-  EXPECT_LE(largest_difference(by_id(one.particles, one.particles.plastic_strain),
-                               by_id(two.particles, two.particles.plastic_strain)),
-            1e-12);
+}
+
+// One grain holds nothing for contact, however it moves particles.
+TEST(Grains, OfOneNumberHoldNoMemory) {
+  for (const char* velocity : {"apic", "fmpm"}) {
+    Simulation<2> sim = start<2>(
+        scene_of(porous_text(), {std::string("transfer.velocity=") + velocity}), MPI_COMM_WORLD);
+    advance_to(20, 7, sim);
+    const GrainFields& all = sim.grain_fields;
+    EXPECT_FALSE(all.faces.has_value());
+    EXPECT_EQ(all.colours.capacity() + all.fields.capacity() + all.grids.capacity() +
+                  all.shared.capacity() + all.sides.capacity(),
+              0U);
+    EXPECT_EQ(sim.ties.nodes.capacity() + sim.ties.directions.capacity(), 0U);
+    for (const auto& column : sim.particles.facing) EXPECT_EQ(column.capacity(), 0U);
+  }
 }
 
 // Grains too far apart to share a node have one colour, and then the bits are those of one field.

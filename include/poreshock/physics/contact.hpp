@@ -3,54 +3,12 @@
 // them have mass, they push each other apart and rub (Bardenhagen, Brackbill & Sulsky, CMAME 187
 // (2000) 529; normals from volume gradients: Lemiale, Nairn & Hurmane, CMES 70 (2010) 41).
 
-#include <array>
 #include <span>
 
-#include "poreshock/core/tensor.hpp"
-#include "poreshock/grid/grain_colours.hpp"
-#include "poreshock/scene/scene.hpp"
+#include "poreshock/physics/gap.hpp"
+#include "poreshock/transfer/tied_nodes.hpp"
 
 namespace poreshock {
-
-/// Most grains that may share a node.
-inline constexpr int most_grains_at_node = most_colours;
-
-/// One grain at a node. The order of several is that of their numbers.
-template <int Dim>
-struct NodeGrain {
-  double mass = 0.0;                           ///< kg
-  Vector<Dim> start = Vector<Dim>::Zero();     ///< m/s, before the momentum update
-  Vector<Dim> end = Vector<Dim>::Zero();       ///< m/s, after it; contact changes it
-  double volume = 0.0;                         ///< m^Dim, sum of V_p N
-  Vector<Dim> gradient = Vector<Dim>::Zero();  ///< m^(Dim-1), sum of V_p dN/dx_p: points outwards
-  Vector<Dim> place = Vector<Dim>::Zero();     ///< m, volume-weighted mean place of its particles
-  double strain = 0.0;                         ///< plastic, volume-weighted mean of its particles
-  double heat = 0.0;                           ///< J, set by contact: what the grain takes
-};
-
-/// Slope of the filled share of a node against the place of a flat face, by that share: the shape
-/// function along one axis as a function of its own integral. From it follow gaps.
-class FaceTable {
- public:
-  explicit FaceTable(const Transfer& transfer);
-
-  /// Weight per cell at the face that fills `share` (0 ... 1) of a node.
-  double density(double share) const;
-
- private:
-  static constexpr int intervals = 64;
-  static constexpr double greatest_root = 0.8408964152537145;  // 0.5^(1/4)
-  std::array<double, intervals + 1> density_{};
-};
-
-/// What contact needs to know at a node.
-struct ContactSettings {
-  double friction = 0.0;
-  bool gap_test = true;
-  double cell = 0.0;          ///< m
-  double closing_time = 0.0;  ///< s, in which a gap may close: dt or longer
-  double capacity = 0.0;  ///< m^Dim, volume that fills the node: cell^Dim, less beyond the domain
-};
 
 /// What happened at a node.
 struct ContactReport {
@@ -62,26 +20,21 @@ struct ContactReport {
   double loss = 0.0;           ///< J >= 0, kinetic energy the impulses took from the end velocities
 };
 
-/// Gap in cells that counts as none, for two grains of this mean plastic strain: the volume that
-/// particles fill at a node is known the worse the more they are deformed. Pure function.
-double touching_gap(double strain);
-
-/// Gap between two grains at a node, m: from the volume that is missing, either in the node or
-/// between the two fields, whichever is less, less touching_gap; 0 when they touch. Between
-/// curved faces it is the mean over the shape function. Pure function.
-template <int Dim>
-double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
-                const ContactSettings& settings, const FaceTable& faces);
-
 /// Lets the grains of a node collide: a pair acts when it would close its gap within closing_time,
 /// and then ends at a relative velocity that closes the gap in that time; friction is Coulomb's.
 /// Two grains are solved exactly; more by projected Gauss-Seidel over ordered pairs. Every impulse
 /// acts on two grains, so momentum stays to rounding; the kinetic energy of the end velocities
 /// never grows. The heat of an impulse J is -J . (start + end)/2 of the relative velocity, half to
-/// each side: with the internal forces' work at mid-step the energy of the step then closes. Pure
-/// function.
+/// each side: with the internal forces' work at mid-step the energy of the step then closes.
+/// `normal`: from the first to the second of two grains; null: from their gradients. Pure function.
 template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
-                              const FaceTable& faces);
+                              const FaceTable& faces, const Vector<Dim>* normal = nullptr);
+
+/// The pairs that touch and push each other when the grains collide as above, stuck where their
+/// friction is not used up; returns how many. The grains stay as they are. Pure function.
+template <int Dim>
+int find_ties(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
+              const FaceTable& faces, const Vector<Dim>* normal, NodeTies<Dim>& ties);
 
 }  // namespace poreshock

@@ -19,6 +19,7 @@ enum class SideKind { periodic, wall, symmetry, free };
 enum class SampleKind { none, solid, random_voids, packed_grains, voronoi_grains, image };
 enum class Islands { removed, grains };  ///< what becomes of floating pieces
 enum class GapTest { volume, none };
+enum class ContactNormal { gradients, regression };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
 enum class ShapeFunction { linear, gimp, quadratic, cubic };
 enum class VelocityTransfer { pic, flip, apic, fmpm };
@@ -138,7 +139,8 @@ struct Conduction {
 struct Contact {
   double friction = 0.0;          ///< coefficient of Coulomb friction
   GapTest gap = GapTest::volume;  ///< contact only where the grains fill the space of a node
-  bool self = false;              ///< opposite walls of one grain meet as two grains do
+  ContactNormal normal = ContactNormal::gradients;
+  bool self = false;  ///< opposite walls of one grain meet as two grains do
   bool operator==(const Contact&) const = default;
 };
 

@@ -1,0 +1,153 @@
+#include "poreshock/transfer/node_points.hpp"
+
+#include <algorithm>
+
+#include "poreshock/core/parallel.hpp"
+#include "poreshock/transfer/sweep.hpp"
+
+namespace poreshock {
+
+namespace {
+
+template <int Dim>
+std::vector<CellPoint<Dim>> shift(const std::vector<CellPoint<Dim>>& sent, int to, int from,
+                                  MPI_Comm communicator) {
+  constexpr int tag = 40;
+  const int outgoing = static_cast<int>(sent.size());
+  int incoming = 0;
+  check_mpi(MPI_Sendrecv(&outgoing, 1, MPI_INT, to, tag, &incoming, 1, MPI_INT, from, tag,
+                         communicator, MPI_STATUS_IGNORE),
+            "MPI_Sendrecv of point counts");
+  std::vector<CellPoint<Dim>> received(static_cast<std::size_t>(incoming));
+  MPI_Datatype unit = make_unit(sizeof(CellPoint<Dim>));
+  check_mpi(MPI_Sendrecv(sent.data(), outgoing, unit, to, tag + 1, received.data(), incoming, unit,
+                         from, tag + 1, communicator, MPI_STATUS_IGNORE),
+            "MPI_Sendrecv of points");
+  MPI_Type_free(&unit);
+  return received;
+}
+
+/// Calls visit(number of the node, its indices) for every chosen node that a point reaches.
+template <int Dim, class Visit>
+void for_each_node(const CellPoint<Dim>& point, const std::vector<bool>& chosen,
+                   const SlabGrid& grid, Visit&& visit) {
+  const GridShape& shape = grid.shape();
+  const std::array<int, Dim> base = cell_index<Dim>(shape, point.row, point.lateral);
+  const int w = shape.stencil, planes = Dim == 3 ? w : 1;
+  for (int k = 0; k < w; ++k) {
+    const int row = point.row + k;
+    if (row < grid.first_row() || row >= grid.node_end()) continue;
+    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
+    for (int j = 0; j < planes; ++j) {
+      for (int l = 0; l < w; ++l) {
+        const std::size_t node = at + original_node(shape, point.lateral + j * shape.nodes[0] + l);
+        if (!chosen[node]) continue;
+        std::array<int, Dim> index;
+        index[0] = base[0] + l;
+        if constexpr (Dim == 3) index[1] = base[1] + j;
+        index[Dim - 1] = row;
+        visit(node, index);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int original_node(const GridShape& shape, int i) {
+  const auto original = [](int k, int nodes, bool periodic) {
+    if (!periodic) return k;
+    if (k == 0) return nodes - 3;
+    return k >= nodes - 2 ? k - (nodes - 3) : k;
+  };
+  const int x = original(i % shape.nodes[0], shape.nodes[0], shape.periodic[0]);
+  if (shape.dimension == 2) return x;
+  return original(i / shape.nodes[0], shape.nodes[1], shape.periodic[1]) * shape.nodes[0] + x;
+}
+
+template <int Dim>
+std::vector<CellPoint<Dim>> collect_points(const Particles<Dim>& particles, const CellOrder& cells,
+                                           const std::vector<std::int8_t>& fields,
+                                           const SlabGrid& grid) {
+  std::vector<CellPoint<Dim>> points;
+  const double inverse_cell = 1.0 / grid.shape().cell;
+  for_each_run(
+      particles, cells, grid, awake_rows(cells, grid),
+      [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
+        for (; first != last; ++first) {
+          const std::uint32_t p = *first;
+          CellPoint<Dim> point;
+          point.row = row, point.lateral = lateral;
+          point.field = fields[static_cast<std::size_t>(particles.grain[p])];
+          point.volume = particles.mass[p] / particles.density[p];
+          for (int a = 0; a < Dim; ++a) {
+            point.volume *= inverse_cell;
+            point.place[a] = particles.position[a][p] * inverse_cell;
+          }
+          points.push_back(point);
+        }
+      },
+      [](int) {});
+  return points;
+}
+
+template <int Dim>
+void exchange_points(const SlabGrid& grid, std::vector<CellPoint<Dim>>& points) {
+  const MPI_Comm communicator = grid.communicator();
+  const int me = rank(communicator), ranks = size(communicator);
+  if (ranks == 1) return;
+  const int below = me > 0 ? me - 1 : MPI_PROC_NULL;
+  const int above = me + 1 < ranks ? me + 1 : MPI_PROC_NULL;
+  const int depth = grid.shape().stencil - 1;
+  std::vector<CellPoint<Dim>> lowest, highest;
+  for (const CellPoint<Dim>& point : points) {
+    if (point.row < grid.first_row() + depth) lowest.push_back(point);
+    if (point.row >= grid.last_row() - depth) highest.push_back(point);
+  }
+  const auto from_above = shift<Dim>(lowest, below, above, communicator);
+  const auto from_below = shift<Dim>(highest, above, below, communicator);
+  points.insert(points.begin(), from_below.begin(), from_below.end());
+  points.insert(points.end(), from_above.begin(), from_above.end());
+}
+
+template <int Dim>
+NodePoints<Dim> points_at_nodes(const std::vector<CellPoint<Dim>>& points,
+                                const std::vector<bool>& chosen, const SlabGrid& grid) {
+  NodePoints<Dim> result;
+  result.start.assign(chosen.size() + 1, 0);
+  for (const CellPoint<Dim>& point : points) {
+    for_each_node<Dim>(point, chosen, grid,
+                       [&](std::size_t node, const auto&) { ++result.start[node + 1]; });
+  }
+  for (std::size_t n = 1; n < result.start.size(); ++n) result.start[n] += result.start[n - 1];
+  std::vector<std::uint32_t> next(result.start.begin(), result.start.end() - 1);
+  result.points.resize(result.start.back());
+  for (const CellPoint<Dim>& point : points) {
+    for_each_node<Dim>(point, chosen, grid,
+                       [&](std::size_t node, const std::array<int, Dim>& index) {
+                         NodePoint<Dim>& seen = result.points[next[node]++];
+                         seen.volume = point.volume;
+                         seen.field = point.field;
+                         // Node i lies at (i - 1) cells.
+                         for (int a = 0; a < Dim; ++a) {
+                           seen.offset[a] = point.place[a] - (index[a] - 1);
+                         }
+                       });
+  }
+  return result;
+}
+
+template std::vector<CellPoint<2>> collect_points<2>(const Particles<2>&, const CellOrder&,
+                                                     const std::vector<std::int8_t>&,
+                                                     const SlabGrid&);
+template std::vector<CellPoint<3>> collect_points<3>(const Particles<3>&, const CellOrder&,
+                                                     const std::vector<std::int8_t>&,
+                                                     const SlabGrid&);
+template void exchange_points<2>(const SlabGrid&, std::vector<CellPoint<2>>&);
+template void exchange_points<3>(const SlabGrid&, std::vector<CellPoint<3>>&);
+template NodePoints<2> points_at_nodes<2>(const std::vector<CellPoint<2>>&,
+                                          const std::vector<bool>&, const SlabGrid&);
+template NodePoints<3> points_at_nodes<3>(const std::vector<CellPoint<3>>&,
+                                          const std::vector<bool>&, const SlabGrid&);
+
+}  // namespace poreshock
