@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "domain_part.hpp"
 #include "label_runs.hpp"
 #include "poreshock/core/fixed_point.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -11,84 +12,6 @@
 
 namespace poreshock {
 namespace {
-
-/// No finite value of a map has more quanta; 2^31 pixels of so many fit 64 bits.
-constexpr double most_quanta = 0x1p32;
-
-/// What is known of a domain or of a part of it. Coordinates run on across periodic sides, so that
-/// they may lie outside the map; sums are exact integers.
-struct Part {
-  std::int64_t pixels = 0;
-  std::int64_t value_sum = 0;  ///< in quanta
-  double peak = -std::numeric_limits<double>::infinity();
-  std::array<std::int64_t, 3> sum{};  ///< of twice the pixel centres
-  std::array<std::int64_t, 3> low{};
-  std::array<std::int64_t, 3> high{};
-  std::array<std::uint8_t, 2> winds{};
-  std::int64_t first = std::numeric_limits<std::int64_t>::max();
-};
-
-/// Sizes of the whole map: nx, ny, and the first layer of this slab.
-struct Frame {
-  std::int64_t nx = 0;
-  std::int64_t ny = 0;
-  std::int64_t first_layer = 0;
-};
-
-/// Adds `part`, displaced by whole maps, to `domain`.
-void add(const Part& part, Crossings at, const Frame& frame, Part& domain) {
-  domain.winds[0] |= part.winds[0];
-  domain.winds[1] |= part.winds[1];
-  if (part.pixels == 0) return;
-  const std::array<std::int64_t, 3> shift = {at.x * frame.nx, at.y * frame.ny, 0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::int64_t low = part.low[axis] + shift[axis];
-    const std::int64_t high = part.high[axis] + shift[axis];
-    domain.low[axis] = domain.pixels == 0 ? low : std::min(domain.low[axis], low);
-    domain.high[axis] = domain.pixels == 0 ? high : std::max(domain.high[axis], high);
-    domain.sum[axis] += part.sum[axis] + 2 * shift[axis] * part.pixels;
-  }
-  domain.pixels += part.pixels;
-  domain.value_sum += part.value_sum;
-  domain.peak = part.peak > domain.peak ? part.peak : domain.peak;
-  domain.first = std::min(domain.first, part.first);
-}
-
-/// Adds a run to the part of its label; the runs of a part come in the order of their rows.
-void add_run(const Run& run, std::int64_t y, std::int64_t z, const double* values,
-             double inverse_quantum, const Frame& frame, Part& part) {
-  const auto quanta = [&](std::int32_t x) {
-    // An infinite value counts as twice the largest finite one.
-    const double exact = values[x] * inverse_quantum;
-    const double below = exact < most_quanta ? exact : most_quanta;
-    return std::llrint(below > -most_quanta ? below : -most_quanta);
-  };
-  const auto higher = [](double a, double b) { return a > b ? a : b; };
-  // Both ends first: a loop over the one or two pixels of most runs of a noise ends unforeseen.
-  const std::int64_t of_last = quanta(run.last);
-  std::int64_t value_sum = quanta(run.first) + (run.last > run.first ? of_last : 0);
-  double peak = higher(higher(values[run.first], values[run.last]), part.peak);
-  for (std::int32_t x = run.first + 1; x < run.last; ++x) {
-    value_sum += quanta(x);
-    peak = higher(values[x], peak);
-  }
-  part.peak = peak;
-  part.value_sum += value_sum;
-  if (part.pixels == 0) {
-    part.low = part.high = {run.first, y, z};
-    part.first = (z * frame.ny + y) * frame.nx + run.first;
-  }
-  const std::int64_t pixels = run.last - run.first + 1;
-  part.pixels += pixels;
-  part.low[0] = std::min<std::int64_t>(part.low[0], run.first);
-  part.high[0] = std::max<std::int64_t>(part.high[0], run.last);
-  part.low[1] = std::min(part.low[1], y);
-  part.high[1] = std::max(part.high[1], y);
-  part.high[2] = z;
-  part.sum[0] += pixels * (std::int64_t{run.first} + run.last + 1);
-  part.sum[1] += pixels * (2 * y + 1);
-  part.sum[2] += pixels * (2 * z + 1);
-}
 
 /// A run on the border between two slabs, which both of them have: its place there, the part it
 /// belongs to, and its crossings from the origin of that part.
@@ -100,8 +23,8 @@ struct BorderRun {
 
 /// Domains of a slab: complete ones, and parts that reach the border to another slab.
 struct SlabDomains {
-  std::vector<Part> complete;
-  std::vector<Part> parts;
+  std::vector<DomainPart> complete;
+  std::vector<DomainPart> parts;
   std::vector<BorderRun> border;
 };
 
@@ -117,10 +40,10 @@ std::vector<std::uint32_t> number_sets(const Labels& labels, std::size_t& count)
 }
 
 /// The part of each label.
-std::vector<Part> add_runs(const Slab& slab, const Runs& runs, std::span<const double> values,
-                           double inverse_quantum, const Frame& frame,
-                           std::span<const std::uint32_t> label, std::size_t labels) {
-  std::vector<Part> parts(labels);
+std::vector<DomainPart> add_runs(const Slab& slab, const Runs& runs, std::span<const double> values,
+                                 double inverse_quantum, const MapFrame& frame,
+                                 std::span<const std::uint32_t> label, std::size_t labels) {
+  std::vector<DomainPart> parts(labels);
   const std::size_t rows =
       static_cast<std::size_t>(slab.ny) * static_cast<std::size_t>(slab.layers);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -135,7 +58,7 @@ std::vector<Part> add_runs(const Slab& slab, const Runs& runs, std::span<const d
 }
 
 /// Runs on the borders to other slabs, their parts as the numbers of their labels.
-std::vector<BorderRun> border_runs(const Slab& slab, const Runs& runs, const Frame& frame,
+std::vector<BorderRun> border_runs(const Slab& slab, const Runs& runs, const MapFrame& frame,
                                    std::span<const std::uint32_t> label, const Labels& labels) {
   std::vector<BorderRun> border;
   const auto ny = static_cast<std::size_t>(slab.ny);
@@ -153,14 +76,14 @@ std::vector<BorderRun> border_runs(const Slab& slab, const Runs& runs, const Fra
 }
 
 SlabDomains collect(const Slab& slab, const Runs& runs, std::span<const double> values,
-                    double inverse_quantum, const Frame& frame,
+                    double inverse_quantum, const MapFrame& frame,
                     std::span<const std::uint32_t> label, const Labels& labels) {
   std::size_t count = 0;
   const std::vector<std::uint32_t> number = number_sets(labels, count);
-  const std::vector<Part> parts =
+  const std::vector<DomainPart> parts =
       add_runs(slab, runs, values, inverse_quantum, frame, label, number.size());
   const auto winds = find_winding(labels);
-  std::vector<Part> domains(count);
+  std::vector<DomainPart> domains(count);
   for (std::uint32_t l = 0; l < number.size(); ++l) {
     const auto place = labels.sets.place(l);
     add(parts[l], place.from_root, frame, domains[number[l]]);
@@ -185,8 +108,8 @@ SlabDomains collect(const Slab& slab, const Runs& runs, std::span<const double> 
 }
 
 /// Joins the parts of all slabs along the runs that two slabs share, on rank 0.
-std::vector<Part> join_parts(const std::vector<Part>& parts, std::vector<BorderRun> border,
-                             const Frame& frame) {
+std::vector<DomainPart> join_parts(const std::vector<DomainPart>& parts,
+                                   std::vector<BorderRun> border, const MapFrame& frame) {
   std::stable_sort(border.begin(), border.end(),
                    [](const BorderRun& a, const BorderRun& b) { return a.place < b.place; });
   Labels labels(parts.size());
@@ -198,12 +121,12 @@ std::vector<Part> join_parts(const std::vector<Part>& parts, std::vector<BorderR
   }
   settle(labels);
   const auto winds = find_winding(labels);
-  std::vector<Part> domains(parts.size());
+  std::vector<DomainPart> domains(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto place = labels.sets.place(static_cast<std::uint32_t>(p));
     add(parts[p], place.from_root, frame, domains[place.root]);
   }
-  std::vector<Part> result;
+  std::vector<DomainPart> result;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (labels.sets.place(static_cast<std::uint32_t>(p)).root != p) continue;
     domains[p].winds[0] |= winds[p][0];
@@ -221,16 +144,17 @@ std::int64_t of_lower_ranks(std::int64_t count, MPI_Comm communicator) {
 }
 
 /// All domains of the map, on rank 0.
-std::vector<Part> gather_domains(SlabDomains slab, const Frame& frame, MPI_Comm communicator) {
+std::vector<DomainPart> gather_domains(SlabDomains slab, const MapFrame& frame,
+                                       MPI_Comm communicator) {
   std::vector<int> starts;
-  std::vector<Part> domains = gather(slab.complete, starts, communicator);
+  std::vector<DomainPart> domains = gather(slab.complete, starts, communicator);
   // Parts are numbered over all ranks.
   const std::int64_t first =
       of_lower_ranks(static_cast<std::int64_t>(slab.parts.size()), communicator);
   for (BorderRun& run : slab.border) run.part += first;
-  const std::vector<Part> parts = gather(slab.parts, starts, communicator);
+  const std::vector<DomainPart> parts = gather(slab.parts, starts, communicator);
   std::vector<BorderRun> border = gather(slab.border, starts, communicator);
-  const std::vector<Part> joined = join_parts(parts, std::move(border), frame);
+  const std::vector<DomainPart> joined = join_parts(parts, std::move(border), frame);
   domains.insert(domains.end(), joined.begin(), joined.end());
   return domains;
 }
@@ -264,7 +188,7 @@ std::int64_t fold(std::int64_t coordinate, std::int64_t size) {
 }
 
 template <int Dim>
-HotSpot<Dim> hot_spot(const Part& part, const PixelField<Dim>& map, double inverse_quantum) {
+HotSpot<Dim> hot_spot(const DomainPart& part, const PixelField<Dim>& map, double inverse_quantum) {
   HotSpot<Dim> spot;
   spot.pixels = part.pixels;
   spot.peak = part.peak;
@@ -298,19 +222,19 @@ std::vector<HotSpot<Dim>> find_hot_spots(const PixelField<Dim>& map, std::size_t
                                          double threshold, Joining joining, MPI_Comm communicator) {
   const Slab slab = slab_of(map);
   const std::span<const double> values = map.values.at(field);
-  const Frame frame{slab.nx, slab.ny, of_lower_ranks(slab.layers, communicator)};
+  const MapFrame frame{slab.nx, slab.ny, of_lower_ranks(slab.layers, communicator)};
   const double inverse_quantum = find_inverse_quantum(slab, values, map.solid, communicator);
   const Runs runs = find_runs(slab, values, map.solid, threshold);
   Labels labels(0);
   const auto labels_of_runs = label(slab, runs, joining == Joining::corners, labels);
-  std::vector<Part> domains =
+  std::vector<DomainPart> domains =
       gather_domains(collect(slab, runs, values, inverse_quantum, frame, labels_of_runs, labels),
                      frame, communicator);
-  std::sort(domains.begin(), domains.end(), [](const Part& a, const Part& b) {
+  std::sort(domains.begin(), domains.end(), [](const DomainPart& a, const DomainPart& b) {
     return a.pixels != b.pixels ? a.pixels > b.pixels : a.first < b.first;
   });
   std::vector<HotSpot<Dim>> spots;
-  for (const Part& part : domains) spots.push_back(hot_spot(part, map, inverse_quantum));
+  for (const DomainPart& part : domains) spots.push_back(hot_spot(part, map, inverse_quantum));
   return spots;
 }
 

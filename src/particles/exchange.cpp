@@ -28,24 +28,6 @@ void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
   resize(particles, kept);
 }
 
-/// Sends a packed buffer one way and receives the one that comes from the other side.
-std::vector<std::byte> shift(const std::vector<std::byte>& buffer, std::size_t bytes, int to,
-                             int from, int tag, MPI_Comm communicator) {
-  // One particle is one unit of transfer, so that counts stay below 2^31.
-  std::int64_t outgoing = static_cast<std::int64_t>(buffer.size() / bytes), incoming = 0;
-  check_mpi(MPI_Sendrecv(&outgoing, 1, MPI_INT64_T, to, tag, &incoming, 1, MPI_INT64_T, from, tag,
-                         communicator, MPI_STATUS_IGNORE),
-            "MPI_Sendrecv of particle counts");
-  std::vector<std::byte> received(static_cast<std::size_t>(incoming) * bytes);
-  MPI_Datatype unit = make_unit(bytes);
-  check_mpi(MPI_Sendrecv(buffer.data(), static_cast<int>(outgoing), unit, to, tag + 1,
-                         received.data(), static_cast<int>(incoming), unit, from, tag + 1,
-                         communicator, MPI_STATUS_IGNORE),
-            "MPI_Sendrecv of particles");
-  MPI_Type_free(&unit);
-  return received;
-}
-
 }  // namespace
 
 template <int Dim>

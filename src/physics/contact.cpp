@@ -12,13 +12,6 @@ constexpr int most_sweeps = 64;
 constexpr double converged = 1e-6;  // change of the impulses in a sweep, over their sum
 constexpr int most_pairs = most_grains_at_node * (most_grains_at_node - 1) / 2;
 
-template <int Dim>
-double dot(const Vector<Dim>& a, const Vector<Dim>& b) {
-  double sum = a[0] * b[0];
-  for (int k = 1; k < Dim; ++k) sum += a[k] * b[k];
-  return sum;
-}
-
 /// Two grains of a node and what they give each other.
 template <int Dim>
 struct Pair {

@@ -64,9 +64,7 @@ double pair_gap(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double filled,
   const double both = a.volume + b.volume;
   if (!(both > 0.0)) return std::numeric_limits<double>::infinity();
   const Vector<Dim> difference = (a.gradient - b.gradient) * 0.5;
-  double square = 0.0;
-  for (int k = 0; k < Dim; ++k) square += difference[k] * difference[k];
-  const double area = std::sqrt(square);
+  const double area = std::sqrt(dot<Dim>(difference, difference));
   const double touching =
       touching_gap((a.strain * a.volume + b.strain * b.volume) / both) * settings.cell;
   // Touching flat faces that fill only part of the node, at an edge or beside other grains, still

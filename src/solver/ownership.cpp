@@ -67,7 +67,7 @@ std::vector<double> row_seconds(const Simulation<Dim>& sim) {
   sum(particles, sim.communicator);
   std::vector<std::int64_t> contact_nodes;
   // The nodes of the last step, on the slabs of the last step.
-  if (sim.grid && has_contact(sim)) {
+  if (!sim.grain_fields.fields.empty()) {
     contact_nodes.assign(particles.size(), 0);
     const std::vector<bool>& shared = sim.grain_fields.shared;
     const auto width = static_cast<std::size_t>(shape.row_size);
@@ -82,17 +82,14 @@ std::vector<double> row_seconds(const Simulation<Dim>& sim) {
   return predicted_row_seconds(particles, contact_nodes, sim.cells.awake, sim.work.unit_seconds);
 }
 
-/// Gives each rank its slab, grids and particles; empty `starts` are found from what is known.
+/// Gives each rank its slab, grids and particles. Collective.
 template <int Dim>
-void cut_slabs(std::vector<int> starts, Simulation<Dim>& sim) {
+void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
   const double begin = MPI_Wtime();
   {
     const Phase phase(sim.phases, PhaseName::rebalance);
     const GridShape shape = make_grid_shape(sim.scene);
     const double inverse_cell = 1.0 / shape.cell;
-    if (starts.empty()) {
-      starts = partition_rows(row_seconds(sim), size(sim.communicator), slab_limits(shape));
-    }
     release_fields(sim.grain_fields);
     sim.grid.reset();
     sim.averages.reset();
@@ -171,7 +168,9 @@ void migrate(Simulation<Dim>& sim) {
 
 template <int Dim>
 void distribute(Simulation<Dim>& sim) {
-  cut_slabs({}, sim);
+  cut_slabs(partition_rows(row_seconds(sim), size(sim.communicator),
+                           slab_limits(make_grid_shape(sim.scene))),
+            sim);
 }
 
 template <int Dim>

@@ -9,24 +9,6 @@ namespace poreshock {
 
 namespace {
 
-template <int Dim>
-std::vector<CellPoint<Dim>> shift(const std::vector<CellPoint<Dim>>& sent, int to, int from,
-                                  MPI_Comm communicator) {
-  constexpr int tag = 40;
-  const int outgoing = static_cast<int>(sent.size());
-  int incoming = 0;
-  check_mpi(MPI_Sendrecv(&outgoing, 1, MPI_INT, to, tag, &incoming, 1, MPI_INT, from, tag,
-                         communicator, MPI_STATUS_IGNORE),
-            "MPI_Sendrecv of point counts");
-  std::vector<CellPoint<Dim>> received(static_cast<std::size_t>(incoming));
-  MPI_Datatype unit = make_unit(sizeof(CellPoint<Dim>));
-  check_mpi(MPI_Sendrecv(sent.data(), outgoing, unit, to, tag + 1, received.data(), incoming, unit,
-                         from, tag + 1, communicator, MPI_STATUS_IGNORE),
-            "MPI_Sendrecv of points");
-  MPI_Type_free(&unit);
-  return received;
-}
-
 /// Calls visit(number of the node, its indices) for every chosen node that a point reaches.
 template <int Dim, class Visit>
 void for_each_node(const CellPoint<Dim>& point, const std::vector<bool>& chosen,
@@ -99,13 +81,14 @@ void exchange_points(const SlabGrid& grid, std::vector<CellPoint<Dim>>& points) 
   const int below = me > 0 ? me - 1 : MPI_PROC_NULL;
   const int above = me + 1 < ranks ? me + 1 : MPI_PROC_NULL;
   const int depth = grid.shape().stencil - 1;
+  constexpr int tag = 40;
   std::vector<CellPoint<Dim>> lowest, highest;
   for (const CellPoint<Dim>& point : points) {
     if (point.row < grid.first_row() + depth) lowest.push_back(point);
     if (point.row >= grid.last_row() - depth) highest.push_back(point);
   }
-  const auto from_above = shift<Dim>(lowest, below, above, communicator);
-  const auto from_below = shift<Dim>(highest, above, below, communicator);
+  const auto from_above = shift(lowest, 1, below, above, tag, communicator);
+  const auto from_below = shift(highest, 1, above, below, tag, communicator);
   points.insert(points.begin(), from_below.begin(), from_below.end());
   points.insert(points.end(), from_above.begin(), from_above.end());
 }

@@ -190,8 +190,9 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& averages, Sample<Dim>& 
   body_force[0] = 3.0e8;
   sort_particles<Dim>(grid, n, s);
   if (transfer.velocity == VelocityTransfer::fmpm) {
-    filter_velocity(s.cells, transfer, s.settings.inverse_energy_quantum, grid, s.particles, s.step,
-                    s.transfer_heat);
+    const FilterField field = {&s.cells, &grid};
+    filter_velocity<Dim>(std::span(&field, 1), {}, transfer, s.settings.inverse_energy_quantum,
+                         s.particles, s.step, s.transfer_heat);
   }
   if (s.conducts) {
     conduct_heat<Dim>(s.materials, s.scene.thermal, transfer.shape, s.cells, dt,

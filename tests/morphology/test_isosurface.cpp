@@ -24,12 +24,7 @@ const MPI_Comm world = MPI_COMM_WORLD;
 /// An image of a function of the voxel centres, all material.
 template <class Function>
 Image image_of(std::array<int, 3> size, std::array<bool, 2> periodic, Function f) {
-  Image image;
-  image.width = size[0];
-  image.depth = size[1];
-  image.height = size[2];
-  image.periodic = periodic[0];
-  image.periodic_y = periodic[1];
+  Image image = blank_image(size, periodic);
   for (int z = 0; z < size[2]; ++z) {
     for (int y = 0; y < size[1]; ++y) {
       for (int x = 0; x < size[0]; ++x) image.values.push_back(f(x, y, z));

@@ -27,16 +27,22 @@ inline double texture_value(Texture texture, double phase, int x, int y, int z, 
   return 0.0;
 }
 
-/// An image of the given size in which `voids` of the pixels are void. Voids hold NaN, or values
-/// above every threshold that must not count.
-inline Image random_image(Texture texture, std::array<int, 3> size, std::array<bool, 2> periodic,
-                          double voids, Random& random) {
+/// An image of the given size without pixels yet.
+inline Image blank_image(std::array<int, 3> size, std::array<bool, 2> periodic) {
   Image image;
   image.width = size[0];
   image.depth = size[1];
   image.height = size[2];
   image.periodic = periodic[0];
   image.periodic_y = periodic[1];
+  return image;
+}
+
+/// An image of the given size in which `voids` of the pixels are void. Voids hold NaN, or values
+/// above every threshold that must not count.
+inline Image random_image(Texture texture, std::array<int, 3> size, std::array<bool, 2> periodic,
+                          double voids, Random& random) {
+  Image image = blank_image(size, periodic);
   const double phase = 6.0 * random.uniform();
   for (int z = 0; z < size[2]; ++z) {
     for (int y = 0; y < size[1]; ++y) {
@@ -56,12 +62,7 @@ inline Image random_image(Texture texture, std::array<int, 3> size, std::array<b
 /// material.
 inline Image image_of_bits(std::uint64_t bits, std::array<int, 3> size,
                            std::array<bool, 2> periodic) {
-  Image image;
-  image.width = size[0];
-  image.depth = size[1];
-  image.height = size[2];
-  image.periodic = periodic[0];
-  image.periodic_y = periodic[1];
+  Image image = blank_image(size, periodic);
   image.solid.assign(image.size(), 1);
   for (std::size_t i = 0; i < image.size(); ++i) {
     image.values.push_back(i < 64 ? static_cast<double>((bits >> i) & 1) : 0.0);

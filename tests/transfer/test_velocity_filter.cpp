@@ -29,7 +29,8 @@ const std::array<Choice, 3> choices = {{{ShapeFunction::cubic, VelocityTransfer:
 template <int Dim>
 Slab<Dim> filtered(const Cloud<Dim>& cloud, double inverse_quantum) {
   Slab<Dim> slab = make_slab(cloud, world);
-  filter_velocity<Dim>(slab.cells, cloud.transfer, inverse_quantum, *slab.grid, slab.particles,
+  const FilterField field = {&slab.cells, slab.grid.get()};
+  filter_velocity<Dim>(std::span(&field, 1), {}, cloud.transfer, inverse_quantum, slab.particles,
                        slab.step, slab.filter_heat);
   return slab;
 }

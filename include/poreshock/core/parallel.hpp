@@ -70,4 +70,24 @@ std::string version();
 /// Source revision the program was built from.
 std::string revision();
 
+/// Sends items one way along the ranks and receives those that come from the other side; `to` and
+/// `from` may be MPI_PROC_NULL. `per_unit` of them travel as one unit, of which there may be 2^31.
+/// Uses the tags `tag` and tag + 1. Collective (neighbours).
+template <class Item>
+std::vector<Item> shift(const std::vector<Item>& sent, std::size_t per_unit, int to, int from,
+                        int tag, MPI_Comm communicator) {
+  std::int64_t outgoing = static_cast<std::int64_t>(sent.size() / per_unit), incoming = 0;
+  check_mpi(MPI_Sendrecv(&outgoing, 1, MPI_INT64_T, to, tag, &incoming, 1, MPI_INT64_T, from, tag,
+                         communicator, MPI_STATUS_IGNORE),
+            "MPI_Sendrecv of counts");
+  std::vector<Item> received(static_cast<std::size_t>(incoming) * per_unit);
+  MPI_Datatype unit = make_unit(per_unit * sizeof(Item));
+  check_mpi(MPI_Sendrecv(sent.data(), static_cast<int>(outgoing), unit, to, tag + 1,
+                         received.data(), static_cast<int>(incoming), unit, from, tag + 1,
+                         communicator, MPI_STATUS_IGNORE),
+            "MPI_Sendrecv of items");
+  MPI_Type_free(&unit);
+  return received;
+}
+
 }  // namespace poreshock

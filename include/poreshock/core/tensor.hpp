@@ -22,6 +22,14 @@ inline constexpr int symmetric_size = Dim == 2 ? 4 : 6;
 template <int Dim>
 using SymmetricTensor = std::array<double, symmetric_size<Dim>>;
 
+/// a . b, summed in the order of the components.
+template <int Dim>
+inline double dot(const Vector<Dim>& a, const Vector<Dim>& b) {
+  double sum = a[0] * b[0];
+  for (int k = 1; k < Dim; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
 /// a : b of two symmetric tensors (off-diagonal terms count twice).
 template <int Dim>
 inline double contract(const SymmetricTensor<Dim>& a, const SymmetricTensor<Dim>& b) {

@@ -38,14 +38,4 @@ void filter_velocity(std::span<const FilterField> fields, const TiedNodes<Dim>& 
                      const Transfer& transfer, double inverse_quantum, Particles<Dim>& particles,
                      StepData<Dim>& step, Int128& filter_heat);
 
-/// The same for a single field.
-template <int Dim>
-void filter_velocity(const CellOrder& cells, const Transfer& transfer, double inverse_quantum,
-                     SlabGrid& grid, Particles<Dim>& particles, StepData<Dim>& step,
-                     Int128& filter_heat) {
-  const FilterField field = {&cells, &grid};
-  filter_velocity<Dim>(std::span(&field, 1), {}, transfer, inverse_quantum, particles, step,
-                       filter_heat);
-}
-
 }  // namespace poreshock
