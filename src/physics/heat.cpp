@@ -153,6 +153,7 @@ void conduct_heat(const std::vector<Material>& materials, Thermal thermal, Shape
                   const CellOrder& cells, double dt, double inverse_quantum, SlabGrid& grid,
                   HeatFlow<Dim>& scratch, Particles<Dim>& particles, Int128& gained) {
   std::vector<HeatProperties> properties;
+  properties.reserve(materials.size());
   for (const Material& m : materials) properties.push_back(heat_properties(m));
   const auto run = [&]<class Spline>(Spline) {
     collect_temperature<Dim, Spline>(materials, properties, thermal, cells, particles, grid);

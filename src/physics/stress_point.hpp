@@ -199,11 +199,11 @@ template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
 inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
                             const Columns<Dim>& c, std::size_t i, std::size_t local,
                             BlockResults& results) {
-  constexpr bool Kinematic = How == Yielding::kinematic;
+  constexpr bool kinematic = How == Yielding::kinematic;
   constexpr int size = symmetric_size<Dim>;
   SymmetricTensor<Dim> s, alpha{};
   for (int k = 0; k < size; ++k) s[k] = c.deviator[k][i];
-  if constexpr (Kinematic) {
+  if constexpr (kinematic) {
     for (int k = 0; k < size; ++k) alpha[k] = c.back_stress[k][i];
   }
   const Motion<Dim> motion = load_motion<Dim>(settings, dt, c, i);
@@ -225,12 +225,12 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   const bool failed_before = Spall && c.failed[i] != 0;
   const auto [start, trial] =
       trial_stress<Dim>(increment, s, failed_before ? 0.0 : m.strength.shear);
-  if constexpr (Kinematic) alpha = rotate(increment.rotation, alpha);
+  if constexpr (kinematic) alpha = rotate(increment.rotation, alpha);
   ReturnMapping<Dim> mapped;
   if constexpr (How == Yielding::known) {
     mapped = return_by<Dim>(c.plastic_increment[i], m.strength.shear, start, trial);
   } else {
-    mapped = radial_return<Dim, Kinematic>(m.strength, start, trial, alpha, c.strain[i]);
+    mapped = radial_return<Dim, kinematic>(m.strength, start, trial, alpha, c.strain[i]);
   }
 
   const double volume = 1.0 / density;
@@ -238,7 +238,7 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
       m.plastic_heat == PlasticHeat::work ? mapped.plastic_work : mapped.dissipation;
   const double plastic_work = c.work[i] + 0.5 * (start_volume + volume) * heat_per_volume;
   double stored = m.deviatoric_energy(contract<Dim>(mapped.deviator, mapped.deviator), density);
-  if constexpr (Kinematic) {
+  if constexpr (kinematic) {
     stored += m.back_stress_energy(contract<Dim>(mapped.back_stress, mapped.back_stress), density);
   }
   EquationOfState eos = Conserving ? conserving_state(m.eos, density, energy - stored)
@@ -257,7 +257,7 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
                    dilatation_end, motion.strain_rate, motion.speed);
 
   for (int k = 0; k < size; ++k) c.deviator[k][i] = mapped.deviator[k];
-  if constexpr (Kinematic) {
+  if constexpr (kinematic) {
     for (int k = 0; k < size; ++k) c.back_stress[k][i] = mapped.back_stress[k];
   }
   c.density[i] = density;

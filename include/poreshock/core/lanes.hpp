@@ -40,7 +40,6 @@ struct Lanes {
   HalfLanes low, high;
 
   /// Not set, like a vector of the compiler.
-  // cppcheck-suppress uninitMemberVar
   constexpr Lanes() = default;
   constexpr Lanes(const HalfLanes& first, const HalfLanes& second) : low(first), high(second) {}
   /// Lanes that are not given are 0.
