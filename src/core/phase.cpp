@@ -29,11 +29,11 @@ std::int64_t peak_memory() {
   return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
-std::int64_t resident_memory() {
+std::int64_t own_memory() {
   std::ifstream file("/proc/self/statm");
-  std::int64_t size = 0, resident = 0;
-  file >> size >> resident;
-  return file ? resident * sysconf(_SC_PAGESIZE) : 0;
+  std::int64_t size = 0, resident = 0, shared = 0;
+  file >> size >> resident >> shared;
+  return file ? (resident - shared) * sysconf(_SC_PAGESIZE) : 0;
 }
 
 void release_freed_memory() {

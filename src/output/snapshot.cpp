@@ -148,18 +148,29 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
   return spec;
 }
 
+/// Particles whose numbers one rank gathers for one call.
+constexpr std::size_t rows_at_once = std::size_t{1} << 16;
+
+/// Writes one dataset in pieces, so that no second copy of a whole field is ever held. Collective;
+/// all ranks give the same number of `pieces`.
 template <class T, int Dim>
 void write_field(const Field<Dim>& field, const Source<Dim>& source, std::uint64_t first_row,
-                 Hdf5File& file) {
+                 int pieces, Hdf5File& file) {
   const std::size_t count = source.input.particles.size();
   const auto components = static_cast<std::size_t>(field.components);
-  std::vector<T> values(count * components);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < components; ++c) {
-      values[i * components + c] = static_cast<T>(field.value(source, i, c));
+  const std::string path = "/particles/" + std::string(field.name);
+  std::vector<T> values;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const std::size_t begin = std::min(count, static_cast<std::size_t>(piece) * rows_at_once);
+    const std::size_t end = std::min(count, begin + rows_at_once);
+    values.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t c = 0; c < components; ++c) {
+        values.push_back(static_cast<T>(field.value(source, i, c)));
+      }
     }
+    file.write<T>(path, first_row + begin, values);
   }
-  file.write<T>("/particles/" + std::string(field.name), first_row, values);
 }
 
 }  // namespace
@@ -205,12 +216,14 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   write_integers("material", particles.material);
   if (particles.options.failed) write_integers("failed", particles.failed);
   if (coloured) write_integers("colour", input.colour);
+  const int pieces =
+      largest(static_cast<int>((particles.size() + rows_at_once - 1) / rows_at_once), communicator);
   for (const auto& field : fields_of(particles)) {
     if (!wanted(input.scene, field.name)) continue;
     if (input.scene.output.precision == Precision::single_precision) {
-      write_field<float>(field, source, rows.first, file);
+      write_field<float>(field, source, rows.first, pieces, file);
     } else {
-      write_field<double>(field, source, rows.first, file);
+      write_field<double>(field, source, rows.first, pieces, file);
     }
   }
   const std::vector<std::int32_t> owner(particles.size(), rank(communicator));

@@ -37,26 +37,32 @@ struct Place {
   double share = 1.0;    ///< of `row`
 };
 
-/// Places of the particles. Each fills an interval of the shock axis around its position, as long
-/// as a particle of the lattice that was compressed along this axis only, at most a cell. What lies
+/// What the places of all particles share.
+struct PlaceScales {
+  double inverse_area;  ///< 1/m^(Dim-1), of the face of a particle of the lattice
+  double inverse_cell;  ///< 1/m
+  double last_row;
+};
+
+template <int Dim>
+PlaceScales place_scales(const Scene& scene) {
+  const double spacing = scene.domain.cell / scene.sample.particles_per_cell;
+  return {1.0 / (Dim == 2 ? spacing : spacing * spacing), 1.0 / scene.domain.cell,
+          static_cast<double>(scene.domain.cells[Dim - 1] - 1)};
+}
+
+/// Place of a particle. It fills an interval of the shock axis around its position, as long as a
+/// particle of the lattice that was compressed along this axis only, at most a cell. What lies
 /// beyond the ends of the domain belongs to the end rows.
 template <int Dim>
-std::vector<Place> places_of(const Particles<Dim>& particles, const Scene& scene) {
-  const double spacing = scene.domain.cell / scene.sample.particles_per_cell;
-  const double inverse_area = 1.0 / (Dim == 2 ? spacing : spacing * spacing);
-  const double inverse_cell = 1.0 / scene.domain.cell;
-  const double last = scene.domain.cells[Dim - 1] - 1;
-  std::vector<Place> places(particles.size());
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const double volume = particles.mass[p] / particles.density[p];
-    const double length = std::min(1.0, volume * inverse_area * inverse_cell);
-    const double low = particles.position[Dim - 1][p] * inverse_cell - 0.5 * length;
-    const double row = std::floor(low);
-    places[p].row = static_cast<std::size_t>(std::clamp(row, 0.0, last));
-    places[p].next = static_cast<std::size_t>(std::clamp(row + 1.0, 0.0, last));
-    places[p].share = std::min(1.0, (row + 1.0 - low) / length);
-  }
-  return places;
+Place place_of(const Particles<Dim>& particles, std::size_t p, const PlaceScales& scales) {
+  const double volume = particles.mass[p] / particles.density[p];
+  const double length = std::min(1.0, volume * scales.inverse_area * scales.inverse_cell);
+  const double low = particles.position[Dim - 1][p] * scales.inverse_cell - 0.5 * length;
+  const double row = std::floor(low);
+  return {static_cast<std::size_t>(std::clamp(row, 0.0, scales.last_row)),
+          static_cast<std::size_t>(std::clamp(row + 1.0, 0.0, scales.last_row)),
+          std::min(1.0, (row + 1.0 - low) / length)};
 }
 
 /// Adds the particle p with weight `share` to the sums of one row.
@@ -79,12 +85,13 @@ void add_particle(const Particles<Dim>& particles, std::size_t p, double share, 
 
 /// Sums over the particles of all ranks, row after row. Collective.
 template <int Dim>
-std::vector<Int128> row_sums(const Simulation<Dim>& sim, const std::vector<Place>& places,
-                             const std::vector<double>& temperature, const Quanta& per) {
+std::vector<Int128> row_sums(const Simulation<Dim>& sim, const std::vector<double>& temperature,
+                             const Quanta& per) {
+  const PlaceScales scales = place_scales<Dim>(sim.scene);
   constexpr std::size_t count = momentum + Dim;
   std::vector<Int128> sums(count * static_cast<std::size_t>(sim.scene.domain.cells[Dim - 1]));
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const auto& [row, next, share] = places[p];
+  for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+    const auto [row, next, share] = place_of(sim.particles, p, scales);
     add_particle(sim.particles, p, share, temperature[p], per, &sums[count * row]);
     if (share == 1.0) continue;
     add_particle(sim.particles, p, 1.0 - share, temperature[p], per, &sums[count * next]);
@@ -95,13 +102,14 @@ std::vector<Int128> row_sums(const Simulation<Dim>& sim, const std::vector<Place
 
 /// Kinetic energy of the deviation from the mean velocities of the rows. Collective.
 template <int Dim>
-std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim, const std::vector<Place>& places,
+std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim,
                                      const std::array<std::vector<double>, 3>& mean,
                                      const Quanta& per) {
+  const PlaceScales scales = place_scales<Dim>(sim.scene);
   const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
   const Particles<Dim>& particles = sim.particles;
   std::vector<Int128> sums(mean[0].size());
-  for (std::size_t p = 0; p < places.size(); ++p) {
+  for (std::size_t p = 0; p < particles.size(); ++p) {
     double gradient = 0.0;
     if (inertia > 0.0) {
       for (const auto& column : particles.affine) gradient += column[p] * column[p];
@@ -115,8 +123,9 @@ std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim, const std::vect
       }
       sums[row] += quantise(0.5 * (share * particles.mass[p]) * square, per.energy);
     };
-    add(places[p].row, places[p].share);
-    if (places[p].share < 1.0) add(places[p].next, 1.0 - places[p].share);
+    const Place place = place_of(particles, p, scales);
+    add(place.row, place.share);
+    if (place.share < 1.0) add(place.next, 1.0 - place.share);
   }
   sum(sums, sim.communicator);
   return sums;
@@ -206,9 +215,8 @@ Profile measure_profile(const Simulation<Dim>& sim, std::int64_t& floored) {
   profile.shift = grid_shift(sim)[Dim - 1];
   for (int j = 0; j < rows; ++j)
     profile.height[static_cast<std::size_t>(j)] = (j + 0.5) * domain.cell;
-  const std::vector<Place> places = places_of(sim.particles, sim.scene);
-  divide_sums<Dim>(row_sums(sim, places, temperature, per), per, row_volume, profile);
-  const std::vector<Int128> kinetic = fluctuation_sums(sim, places, profile.velocity, per);
+  divide_sums<Dim>(row_sums(sim, temperature, per), per, row_volume, profile);
+  const std::vector<Int128> kinetic = fluctuation_sums(sim, profile.velocity, per);
   for (std::size_t j = 0; j < kinetic.size(); ++j) {
     const double m = profile.density[j] * (profile.solid_fraction[j] * row_volume);
     profile.fluctuation[j] = static_cast<double>(kinetic[j]) / per.energy / m;

@@ -77,8 +77,8 @@ std::string progress_row(const Clock& clock, double end, const EnergyStatus& ene
 }
 
 void note_memory(MPI_Comm communicator, Progress& progress) {
-  const std::int64_t now = sum(resident_memory() - progress.start_resident, communicator);
-  progress.most_resident = std::max(progress.most_resident, now);
+  const std::int64_t now = sum(own_memory() - progress.start_own, communicator);
+  progress.most_own = std::max(progress.most_own, now);
 }
 
 Timings final_timings(const Clock& clock, const PhaseTable& phases, const WorkMeter& work,
@@ -97,7 +97,7 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, const WorkMe
   const std::int64_t all = sum(particles, communicator);
   const double per_particle = all > 0 ? 1.0 / static_cast<double>(all) : 0.0;
   timings.bytes_per_particle = static_cast<double>(memory) * per_particle;
-  timings.bytes_at_once = static_cast<double>(progress.most_resident) * per_particle;
+  timings.bytes_at_once = static_cast<double>(progress.most_own) * per_particle;
   timings.phases = gather_phases(phases, communicator);
   return timings;
 }

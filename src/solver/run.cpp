@@ -168,7 +168,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   Progress progress;
   progress.start_wall = MPI_Wtime();
   progress.start_memory = peak_memory();
-  progress.start_resident = resident_memory();
+  progress.start_own = own_memory();
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);

@@ -18,8 +18,8 @@ namespace poreshock {
 struct Progress {
   double start_wall = 0.0;          ///< s, MPI_Wtime at the start of the run
   std::int64_t start_memory = 0;    ///< bytes, peak_memory at the start of the run
-  std::int64_t start_resident = 0;  ///< bytes, resident_memory at the start of the run
-  std::int64_t most_resident = 0;   ///< bytes beyond it, of all ranks at one time
+  std::int64_t start_own = 0;       ///< bytes, own_memory at the start of the run
+  std::int64_t most_own = 0;        ///< bytes beyond it, of all ranks at one time
   std::int64_t particle_steps = 0;  ///< of this rank since the start
   std::int64_t sleeping_steps = 0;  ///< those of them in rows asleep
   TimeToGo to_go;                   ///< with the last row
