@@ -8,7 +8,7 @@ import h5py
 import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from poreshock_cases import accuracy, always, bits, catalogue, free, program, table  # noqa: E402
+from poreshock_cases import accuracy, always, bits, catalogue, free, program, speed, table  # noqa: E402
 
 
 class Rows(unittest.TestCase):
@@ -52,6 +52,38 @@ class Rows(unittest.TestCase):
         self.assertEqual(rows[0].value, "+0.40 / +0.40 %; missed at 1100")
         rows = accuracy.rows_of_plates("p", {3000.0: figures | {"temperature rise": -4.9}})
         self.assertTrue(all(row.ok for row in rows))
+
+
+class Speed(unittest.TestCase):
+    LISTING = """Events shown:     Ir DLmr DLmw
+--------------------------------------------------------------------------------
+Ir                   DLmr        DLmw
+138,625,503 (100.0%) 14 (100.0%) 1,213 (100.0%)  PROGRAM TOTALS
+
+138,625,503 (100.0%) 14 (100.0%) 1,213 (100.0%)  ???:void poreshock::advance<2>(poreshock::Simulation<2>&, double)
+ 37,058,430 (26.73%)  1 ( 7.14%)   449 (37.02%)  ???:void poreshock::grid_to_particles<2>(poreshock::SlabGrid const&)
+ 23,225,437 (16.75%)  0             16 ( 1.32%)  ???:void poreshock::sum_dilatation<2>(poreshock::Particles<2> const&)
+ 11,807,914 ( 8.52%)  7 (50.00%)    32 ( 2.64%)  ???:void poreshock::sum_pressure<2>(poreshock::Particles<2> const&)
+  1,000,000 ( 0.72%)  .              .           ???:void poreshock::update_stress<2>(poreshock::Material const&)
+"""
+
+    def test_counts_of_the_phases(self):
+        counts = speed.read_counts(self.LISTING.splitlines())
+        self.assertEqual(counts[""], speed.Count(138625503, 64 * 1227))
+        self.assertEqual(counts["grid to particles"], speed.Count(37058430, 64 * 450))
+        self.assertEqual(counts["average"], speed.Count(23225437 + 11807914, 64 * 55))
+        self.assertEqual(counts["stress"], speed.Count(1000000, 0))
+        self.assertEqual(counts["contact"], speed.Count(0, 0))
+
+    def test_the_slower_of_instructions_and_bytes_is_the_bound(self):
+        machine = speed.Machine(instructions=4e9, bytes=10e9, program_rate=3e6, plain_rate=1e6)
+        self.assertEqual(speed.Count(400.0, 100.0).least_time(machine), 100.0)
+        self.assertEqual(speed.Count(4.0, 100.0).least_time(machine), 10.0)
+        timing = speed.Timing("s", "default", 1, 10.0, 2.0, 300.0, {"stress": 200.0, "sort": 5.0},
+                              {"stress": speed.Count(400.0, 100.0)})
+        self.assertIn("| 200.0 (400; 50 %) | 5.0 |", speed.markdown([timing], machine))
+        self.assertIn("| 200.0 | 5.0 |", speed.markdown([timing]))
+        self.assertEqual(timing.row()["stress [bytes/particle-step]"], "100.0")
 
 
 class Readers(unittest.TestCase):

@@ -28,8 +28,8 @@ struct Timings {
   std::int64_t sleeping_steps = 0;  ///< those of them whose particle only moved
   std::int64_t cuts = 0;            ///< times the slabs were cut anew
   double bytes_per_particle = 0.0;  ///< peak memory beyond that at the start, sum of all ranks
-  double bytes_at_once = 0.0;       ///< the most of all ranks at one time, without code of libraries
-  double rate_per_core = 0.0;       ///< particle steps per second and rank
+  double bytes_at_once = 0.0;  ///< the most of all ranks at one time, without code of libraries
+  double rate_per_core = 0.0;  ///< particle steps per second and rank
   std::vector<PhaseTiming> phases;
 };
 
