@@ -45,9 +45,10 @@ Particles<Dim> physical_particles(std::int64_t first, std::int64_t count) {
 
 constexpr std::int64_t total = 13;
 
+/// Writes a snapshot; this rank brings the rows of `share`.
 template <int Dim>
-std::int64_t write(const std::string& path, const Scene& scene, std::int64_t record, double time) {
-  const RowRange share = equal_share(total, world);
+std::int64_t write(const std::string& path, const Scene& scene, std::int64_t record, double time,
+                   const RowRange& share = equal_share(total, world)) {
   const auto particles = physical_particles<Dim>(static_cast<std::int64_t>(share.first),
                                                  static_cast<std::int64_t>(share.count));
   const auto materials = test::small_materials();
@@ -112,6 +113,28 @@ TEST(Snapshot, ColumnsInPlaneStrain) {
 }
 TEST(Snapshot, ColumnsInThreeDimensions) {
   check_columns<3>(ShapeFunction::quadratic, 0.25 / 4.0);
+}
+
+TEST(Snapshot, ARankWithManyParticlesWritesInPiecesTheOthersTakePartIn) {
+  constexpr std::uint64_t many = 150000, few = 7;
+  const auto ranks = static_cast<std::uint64_t>(size(world));
+  const auto me = static_cast<std::uint64_t>(rank(world));
+  const bool last = me + 1 == ranks;
+  const RowRange share = {few * me, last ? many : few, few * (ranks - 1) + many};
+  const TemporaryFolder folder;
+  const std::string path = folder / snapshot_name(1);
+  write<2>(path, test::small_scene(2), 1, 0.0, share);
+  const auto density = plain_read(path, "/particles/density");
+  const auto velocity = plain_read(path, "/particles/velocity");
+  ASSERT_EQ(density.size(), share.total);
+  ASSERT_EQ(velocity.size(), 2 * share.total);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    const auto row = static_cast<double>(i);
+    wrong += density[i] != 2785.0 + 10.0 * row || velocity[2 * i] != row ||
+             velocity[2 * i + 1] != row - 2.0;
+  }
+  EXPECT_EQ(wrong, 0U);
 }
 
 TEST(Snapshot, SubsetAndSinglePrecision) {
