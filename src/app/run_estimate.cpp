@@ -10,6 +10,7 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/output/snapshot.hpp"
+#include "poreshock/solver/grain_fields.hpp"
 
 namespace poreshock {
 
@@ -148,7 +149,8 @@ RunEstimate estimate_run(const Simulation<Dim>& sim) {
   e.snapshots = scene.output.snapshot > 0.0
                     ? 1.0 + std::ceil(scene.time.end / scene.output.snapshot * (1.0 - 1e-12))
                     : 2.0;
-  const SnapshotInput<Dim> input{scene, sim.scene_text, sim.materials, sim.particles};
+  SnapshotInput<Dim> input{scene, sim.scene_text, sim.materials, sim.particles};
+  input.colour = particle_colours(sim);
   e.snapshot_bytes =
       particles * static_cast<double>(snapshot_bytes_per_particle(input)) + bytes_of_maps(scene);
   e.checkpoint_bytes = particles * static_cast<double>(bytes_per_particle(sim.particles));
