@@ -82,7 +82,8 @@ void for_each_pair_of_rows(const Slab& slab, bool corners, Use use) {
 }
 
 std::size_t row_at(const Slab& slab, int y, int z) {
-  return static_cast<std::size_t>(z * slab.ny + y);
+  return static_cast<std::size_t>(z) * static_cast<std::size_t>(slab.ny) +
+         static_cast<std::size_t>(y);
 }
 
 /// Labels the runs of a row by those of rows before that they touch inside the map.

@@ -133,6 +133,7 @@ std::vector<double> quantiles(const PixelField<Dim>& map, std::size_t field,
   for (int bit = 63; bit >= 0; --bit) {
     const std::uint64_t rest = (std::uint64_t{1} << bit) - 1;
     std::vector<std::int64_t> up_to;
+    up_to.reserve(found.size());
     for (const std::uint64_t key : found) {
       up_to.push_back(std::upper_bound(keys.begin(), keys.end(), key | rest) - keys.begin());
     }
@@ -142,6 +143,7 @@ std::vector<double> quantiles(const PixelField<Dim>& map, std::size_t field,
     }
   }
   std::vector<double> result;
+  result.reserve(found.size());
   for (const std::uint64_t key : found) result.push_back(value_of(key));
   return result;
 }

@@ -129,7 +129,7 @@ class ParaView(ProgramTest):
             self.assertGreater(close, 0.02, colour)
 
     def test_what_is_missing_is_named(self):
-        with self.assertRaisesRegex(AssertionError, "no field heat; the snapshot holds density, "):
+        with self.assertRaisesRegex(AssertionError, "no field heat; the snapshot holds colour, density, "):
             self.picture("--field", "heat")
 
 
