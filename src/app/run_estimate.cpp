@@ -149,10 +149,10 @@ RunEstimate estimate_run(const Simulation<Dim>& sim) {
   e.snapshots = scene.output.snapshot > 0.0
                     ? 1.0 + std::ceil(scene.time.end / scene.output.snapshot * (1.0 - 1e-12))
                     : 2.0;
-  SnapshotInput<Dim> input{scene, sim.scene_text, sim.materials, sim.particles};
-  input.colour = particle_colours(sim);
+  const SnapshotInput<Dim> input{scene, sim.scene_text, sim.materials, sim.particles};
   e.snapshot_bytes =
-      particles * static_cast<double>(snapshot_bytes_per_particle(input)) + bytes_of_maps(scene);
+      particles * static_cast<double>(snapshot_bytes_per_particle(input, has_contact(sim))) +
+      bytes_of_maps(scene);
   e.checkpoint_bytes = particles * static_cast<double>(bytes_per_particle(sim.particles));
   const Checkpoint& when = scene.checkpoint;
   const bool checkpoints = when.every_steps > 0 || when.every_time > 0.0 || when.every_wall > 0.0;

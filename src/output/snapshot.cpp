@@ -180,9 +180,9 @@ std::string snapshot_name(std::int64_t record) {
 }
 
 template <int Dim>
-std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input) {
+std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input, bool coloured) {
   std::size_t bytes = 0;
-  for (const DatasetSpec& dataset : file_spec(input, 1, 0, !input.colour.empty()).datasets) {
+  for (const DatasetSpec& dataset : file_spec(input, 1, 0, coloured).datasets) {
     if (dataset.path.starts_with(map_folder)) continue;
     const std::uint64_t components = dataset.shape.size() > 1 ? dataset.shape[1] : 1;
     bytes += components * number_size(dataset.type);
@@ -241,8 +241,8 @@ std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& i
   return floored;
 }
 
-template std::size_t snapshot_bytes_per_particle<2>(const SnapshotInput<2>&);
-template std::size_t snapshot_bytes_per_particle<3>(const SnapshotInput<3>&);
+template std::size_t snapshot_bytes_per_particle<2>(const SnapshotInput<2>&, bool);
+template std::size_t snapshot_bytes_per_particle<3>(const SnapshotInput<3>&, bool);
 template std::int64_t write_snapshot<2>(const std::string&, const SnapshotInput<2>&, MPI_Comm);
 template std::int64_t write_snapshot<3>(const std::string&, const SnapshotInput<3>&, MPI_Comm);
 

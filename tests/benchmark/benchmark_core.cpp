@@ -1,12 +1,10 @@
-// What one core of this machine can do at most: simple instructions per second, multiply-adds of
-// eight numbers, and bytes from and to memory. tools/benchmark compares the phases of a step to it.
+// What one core of this machine can do at most: simple instructions per second, and bytes from and
+// to memory. tools/benchmark compares the phases of a step to it.
 
 #include <benchmark/benchmark.h>
 
-#include <array>
+#include <cstdint>
 #include <vector>
-
-#include "poreshock/core/lanes.hpp"
 
 namespace poreshock {
 namespace {
@@ -19,8 +17,7 @@ void set_rate(const char* name, double per_iteration, benchmark::State& state) {
 /// Independent additions of integers in registers, as many at a time as any core starts.
 void instructions(benchmark::State& state) {
   constexpr int rounds = 256, chains = 8;
-  std::array<std::uint64_t, chains> x{};
-  auto [a, b, c, d, e, f, g, h] = x;
+  std::uint64_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0;
   for (auto _ : state) {
 #pragma GCC unroll 256
     for (int i = 0; i < rounds; ++i) {

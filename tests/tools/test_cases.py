@@ -80,8 +80,8 @@ Ir                   DLmr        DLmw
         self.assertEqual(speed.Count(400.0, 100.0).least_time(machine), 100.0)
         self.assertEqual(speed.Count(4.0, 100.0).least_time(machine), 10.0)
         timing = speed.Timing("s", "default", 1, 10.0, 2.0, 300.0, {"stress": 200.0, "sort": 5.0},
-                              {"stress": speed.Count(400.0, 100.0)})
-        self.assertIn("| 200.0 (400; 50 %) | 5.0 |", speed.markdown([timing], machine))
+                              {"": speed.Count(700.0, 300.0), "stress": speed.Count(400.0, 100.0)})
+        self.assertIn("| 300 | 700 | 200.0 (400; 50 %) | 5.0 |", speed.markdown([timing], machine))
         self.assertIn("| 200.0 | 5.0 |", speed.markdown([timing]))
         self.assertEqual(timing.row()["stress [bytes/particle-step]"], "100.0")
 

@@ -141,13 +141,17 @@ def callgrind(lab, folder, bench, settings, checkpoint, end):
                "--restart", checkpoint]
     for setting in (*settings, f"time.end={end!r}", "checkpoint.every_time=0.0"):
         command += ["--set", setting]
+    file.unlink(missing_ok=True)
     done = subprocess.run([str(part) for part in command], text=True, capture_output=True, check=False,
                           env=os.environ | {"GLIBC_TUNABLES": PLAIN_CLEARING})
     if done.returncode != 0 or not file.exists():
         raise CaseError(f"{folder}: callgrind ended with {done.returncode}: {done.stderr.strip()}")
     lines = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", "--show=Ir,DLmr,DLmw", file],
                            text=True, capture_output=True, check=True).stdout.splitlines()
-    return read_counts(lines), Run(folder / "counted", 0, "").timings["particle_steps"]
+    counts = read_counts(lines)
+    if not counts[""].instructions:
+        raise CaseError(f"{file}: nothing of the time loop was counted")
+    return counts, Run(folder / "counted", 0, "").timings["particle_steps"]
 
 
 def count_work(lab, folder, bench, settings, checkpoint):
@@ -184,7 +188,7 @@ def markdown(timings, machine=None):
     names = sorted({name for t in timings for name in t.phases},
                    key=lambda name: -max(t.phases.get(name, 0.0) for t in timings))
     lines = ["| scene | scheme | ranks | particles | million particle-steps/s/core | bytes per particle | "
-             + " | ".join(names) + " |", "|---" * (6 + len(names)) + "|"]
+             "instructions | " + " | ".join(names) + " |", "|---" * (7 + len(names)) + "|"]
     for t in timings:
         cells = []
         for name in names:
@@ -193,8 +197,9 @@ def markdown(timings, machine=None):
             if cell and machine and count.instructions:
                 cell += f" ({count.instructions:.0f}; {100.0 * count.least_time(machine) / t.phases[name]:.0f} %)"
             cells.append(cell)
-        lines.append(f"| {t.scene} | {t.scheme} | {t.ranks} | {t.particles:.0f} | {t.rate:.2f} | {t.memory:.0f} | "
-                     + " | ".join(cells) + " |")
+        whole = f"{t.counts[''].instructions:.0f}" if t.counts else ""
+        lines.append(f"| {t.scene} | {t.scheme} | {t.ranks} | {t.particles:.0f} | {t.rate:.2f} | {t.memory:.0f} "
+                     f"| {whole} | " + " | ".join(cells) + " |")
     lines += ["", "Phases in ns per particle-step and core."]
     if machine:
         ratio = machine.program_rate / machine.plain_rate

@@ -45,9 +45,10 @@ struct SnapshotInput {
 /// File name of a snapshot in its folder: snapshot_NNNNNN.h5.
 std::string snapshot_name(std::int64_t record);
 
-/// Bytes that one particle takes in a snapshot. Not collective.
+/// Bytes that one particle takes in a snapshot; `coloured` where it has a colour there, whether or
+/// not `input` brings them yet. Not collective.
 template <int Dim>
-std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input);
+std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input, bool coloured);
 
 /// Writes /particles/... of all ranks into one sealed file, rank after rank in the order the
 /// particles are stored, replacing an older file. Fields as scene.output.fields says (all when
