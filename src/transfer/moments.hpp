@@ -7,18 +7,32 @@
 
 namespace poreshock {
 
-/// Moments of the nodal lanes over a stencil: values, gradients (per m), first moments (cells).
+/// The velocities among the lanes of a node, start and end: in 2-D they are the low half.
 template <int Dim>
+using VelocityLanes = std::conditional_t<Dim == 2, HalfLanes, Lanes>;
+
+template <int Dim>
+inline VelocityLanes<Dim> velocities(const Lanes& node) {
+  if constexpr (Dim == 2) {
+    return low_half(node);
+  } else {
+    return node;
+  }
+}
+
+/// Moments over a stencil: values of all nodal lanes, gradients (per m) and first moments (cells)
+/// of the velocities along the first `Axes` axes.
+template <int Dim, int Axes = Dim>
 struct Moments {
   Lanes value;
-  std::array<Lanes, Dim> gradient;
-  std::array<Lanes, Dim> moment;
+  std::array<VelocityLanes<Dim>, Axes> gradient;
+  std::array<VelocityLanes<Dim>, Axes> moment;
 };
 
 /// Weights of one particle along its axes, times `scale` each: value, slope, value times offset.
 template <int Dim>
 struct PointWeights {
-  double value[2 * lane_count], slope[2 * lane_count], moment[2 * lane_count];  ///< 4 per axis
+  alignas(64) double value[2 * lane_count], slope[2 * lane_count], moment[2 * lane_count];
   const Lanes* averages = nullptr;  ///< node of the averages at the base of the stencil, 3-D only
 };
 
@@ -71,28 +85,29 @@ inline Lanes interpolate(const PointWeights<Dim>& w, const Lanes* nodes) {
 
 /// Moments in one plane of nodes.
 template <int Dim, class Spline, bool Affine>
-inline Moments<2> plane_moments(const PointWeights<Dim>& w, const Lanes* nodes) {
+inline Moments<Dim, 2> plane_moments(const PointWeights<Dim>& w, const Lanes* nodes) {
   constexpr int width = Spline::width;
+  using Velocities = VelocityLanes<Dim>;
   const double* const y = w.value + 4;
-  Moments<2> m{};
+  Moments<Dim, 2> m{};
 #pragma GCC unroll 4
   for (int j = 0; j < width; ++j) {
-    const Lanes& first = nodes[j * width];
-    Lanes value = w.value[0] * first, slope = w.slope[0] * first, moment{};
-    if constexpr (Affine) moment = w.moment[0] * first;
+    const Lanes* const line = nodes + j * width;
+    Lanes value = w.value[0] * line[0];
+    Velocities slope = w.slope[0] * velocities<Dim>(line[0]), moment{};
+    if constexpr (Affine) moment = w.moment[0] * velocities<Dim>(line[0]);
 #pragma GCC unroll 4
     for (int i = 1; i < width; ++i) {
-      const Lanes& node = nodes[j * width + i];
-      value = fused(w.value[i], node, value);
-      slope = fused(w.slope[i], node, slope);
-      if constexpr (Affine) moment = fused(w.moment[i], node, moment);
+      value = fused(w.value[i], line[i], value);
+      slope = fused(w.slope[i], velocities<Dim>(line[i]), slope);
+      if constexpr (Affine) moment = fused(w.moment[i], velocities<Dim>(line[i]), moment);
     }
     m.value = fused(y[j], value, m.value);
     m.gradient[0] = fused(y[j], slope, m.gradient[0]);
-    m.gradient[1] = fused(w.slope[4 + j], value, m.gradient[1]);
+    m.gradient[1] = fused(w.slope[4 + j], velocities<Dim>(value), m.gradient[1]);
     if constexpr (Affine) {
       m.moment[0] = fused(y[j], moment, m.moment[0]);
-      m.moment[1] = fused(w.moment[4 + j], value, m.moment[1]);
+      m.moment[1] = fused(w.moment[4 + j], velocities<Dim>(value), m.moment[1]);
     }
   }
   return m;
@@ -106,7 +121,7 @@ inline Moments<Dim> scaled_moments(const PointWeights<Dim>& w, const Lanes* node
     constexpr int width = Spline::width;
     Moments<3> m{};
     for (int k = 0; k < width; ++k) {
-      const Moments<2> p = plane_moments<3, Spline, Affine>(w, nodes + k * width * width);
+      const Moments<3, 2> p = plane_moments<3, Spline, Affine>(w, nodes + k * width * width);
       const double z = w.value[8 + k];
       m.value = fused(z, p.value, m.value);
       m.gradient[0] = fused(z, p.gradient[0], m.gradient[0]);
@@ -143,18 +158,10 @@ inline GroupMoments<Dim> group_moments(const Moments<Dim>* particles, double inv
   if constexpr (Dim == 2) {
     // Only velocities have gradients and moments: four lanes of each vector, so two share one.
     std::array<Lanes, lane_count> pair;
-    turn(
-        [&](int n) {
-          return join(low_half(particles[n].gradient[0]), low_half(particles[n].gradient[1]));
-        },
-        pair);
+    turn([&](int n) { return join(particles[n].gradient[0], particles[n].gradient[1]); }, pair);
     for (int k = 0; k < 4; ++k) g.gradient[0][k] = pair[k], g.gradient[1][k] = pair[4 + k];
     if constexpr (Affine) {
-      turn(
-          [&](int n) {
-            return join(low_half(particles[n].moment[0]), low_half(particles[n].moment[1]));
-          },
-          pair);
+      turn([&](int n) { return join(particles[n].moment[0], particles[n].moment[1]); }, pair);
       for (int k = 0; k < 4; ++k) g.moment[0][k] = pair[k], g.moment[1][k] = pair[4 + k];
     }
   } else {

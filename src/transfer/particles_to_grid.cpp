@@ -61,9 +61,9 @@ inline Lanes velocity_in(const PointSource<Dim>& source, const BlockWeights<Dim,
   if constexpr (Kinetic != KineticEnergy::affine) {
     return source.velocity[a] - Lanes{};
   } else {
-    Lanes v = fused(source.affine[a][0], w.x.offset, source.velocity[a] - Lanes{});
-    v = fused(source.affine[a][1], w.y[b % line_pairs<Spline>].offset, v);
-    if constexpr (Dim == 3) v += source.affine[a][2] * w.z_offset[b / line_pairs<Spline>];
+    Lanes v = fused(source.affine[a][0], along_lines(w.offset), source.velocity[a] - Lanes{});
+    v = fused(source.affine[a][1], across_lines<Spline>(w.offset, b), v);
+    if constexpr (Dim == 3) v += source.affine[a][2] * across_planes<Spline>(w.offset, b);
     return v;
   }
 }

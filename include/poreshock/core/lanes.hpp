@@ -102,6 +102,15 @@ inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
 inline Lanes fused(double a, const Lanes& b, const Lanes& c) {
   return fused(a - Lanes{}, b, c);
 }
+inline HalfLanes fused(double a, const HalfLanes& b, const HalfLanes& c) {
+#ifdef __FMA__
+  return _mm256_fmadd_pd(a - HalfLanes{}, b, c);
+#else
+  HalfLanes result;
+  for (int k = 0; k < lane_count / 2; ++k) result[k] = std::fma(a, b[k], c[k]);
+  return result;
+#endif
+}
 
 /// Sum of all lanes, in a tree that is the same everywhere.
 inline double sum_of_lanes(const Lanes& x) {

@@ -11,60 +11,81 @@
 
 namespace poreshock {
 
-/// Weights of a particle in blocks, times scale^Dim; slopes are per cell, offsets in cells.
-template <int Dim, class Spline>
+/// What a sweep needs of the weights.
+enum class WeightParts { values, all };
+
+/// Weights of a particle along its axes, four nodes an axis, times `scale` each: value, slope per
+/// cell, and offset in cells. In memory, where one number is spread over lanes as it loads.
+template <int Dim, class Spline, WeightParts Parts = WeightParts::all>
 struct BlockWeights {
-  AxisLanes x;
-  std::array<AxisLanes, line_pairs<Spline>> y;
-  std::array<double, Spline::width> z_value, z_slope, z_offset;  ///< 3-D only
+  static constexpr std::size_t size = Dim == 2 ? lane_count : 2 * lane_count;
+  static constexpr std::size_t others = Parts == WeightParts::all ? size : 0;
+  alignas(64) std::array<double, size> value;
+  std::array<double, others> slope, offset;
 };
 
-template <int Dim, class Spline>
-inline BlockWeights<Dim, Spline> block_weights(const Spline& spline,
-                                               const Particles<Dim>& particles, std::uint32_t p,
-                                               const std::array<int, Dim>& base,
-                                               double inverse_cell) {
+template <int Dim, WeightParts Parts, class Spline>
+inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
+                                                      const Particles<Dim>& particles,
+                                                      std::uint32_t p,
+                                                      const std::array<int, Dim>& base,
+                                                      double inverse_cell) {
+  BlockWeights<Dim, Spline, Parts> w;
   const auto local = [&](int a) {
     return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
   };
-  BlockWeights<Dim, Spline> w;
-  w.x = spline.template lanes<AlongLine>(local(0));
-  w.y[0] = spline.template lanes<AcrossLines<0>>(local(1));
-  if constexpr (Spline::width > 2) {
-    w.y[1] = spline.template lanes<AcrossLines<2>>(local(1));
-  }
-  if constexpr (Dim == 3) {
-    const AxisLanes z = spline.template lanes<AlongLine>(local(2));
-    for (int k = 0; k < Spline::width; ++k) {
-      w.z_value[k] = z.value[k];
-      w.z_slope[k] = z.slope[k];
-      w.z_offset[k] = z.offset[k];
+  const auto store = [&w](const AxisLanes& lanes, int first) {
+    *reinterpret_cast<Lanes*>(w.value.data() + first) = lanes.value;
+    if constexpr (Parts == WeightParts::all) {
+      *reinterpret_cast<Lanes*>(w.slope.data() + first) = lanes.slope;
+      *reinterpret_cast<Lanes*>(w.offset.data() + first) = lanes.offset;
     }
-  }
+  };
+  store(weights_of_two(spline, local(0), local(1)), 0);
+  if constexpr (Dim == 3) store(weights_of_two(spline, local(2), local(2)), lane_count);
   return w;
 }
 
+/// One number of the first axis at the nodes of any block.
+template <std::size_t Size>
+inline Lanes along_lines(const std::array<double, Size>& axes) {
+  const HalfLanes line = *reinterpret_cast<const HalfLanes*>(axes.data());
+  return join(line, line);
+}
+
+/// One number of the second axis at the nodes of block b.
+template <class Spline, std::size_t Size>
+inline Lanes across_lines(const std::array<double, Size>& axes, int b) {
+  const double* const pair = axes.data() + 4 + 2 * (b % line_pairs<Spline>);
+  return join(pair[0] - HalfLanes{}, pair[1] - HalfLanes{});
+}
+
+/// One number of the third axis at all nodes of block b.
+template <class Spline, std::size_t Size>
+inline double across_planes(const std::array<double, Size>& axes, int b) {
+  return axes.data()[lane_count + b / line_pairs<Spline>];
+}
+
 /// Weights at the nodes of block b.
-template <int Dim, class Spline>
-inline Lanes value_in(const BlockWeights<Dim, Spline>& w, int b) {
-  const Lanes plane = w.x.value * w.y[b % line_pairs<Spline>].value;
+template <int Dim, class Spline, WeightParts Parts>
+inline Lanes value_in(const BlockWeights<Dim, Spline, Parts>& w, int b) {
+  const Lanes plane = along_lines(w.value) * across_lines<Spline>(w.value, b);
   if constexpr (Dim == 2) {
     return plane;
   } else {
-    return w.z_value[b / line_pairs<Spline>] * plane;
+    return across_planes<Spline>(w.value, b) * plane;
   }
 }
 
 /// Slopes along axis a at the nodes of block b, per cell.
 template <int Dim, class Spline>
 inline Lanes slope_in(const BlockWeights<Dim, Spline>& w, int a, int b) {
-  const AxisLanes& y = w.y[b % line_pairs<Spline>];
-  const Lanes plane = (a == 0 ? w.x.slope : w.x.value) * (a == 1 ? y.slope : y.value);
+  const Lanes plane =
+      along_lines(a == 0 ? w.slope : w.value) * across_lines<Spline>(a == 1 ? w.slope : w.value, b);
   if constexpr (Dim == 2) {
     return plane;
   } else {
-    const int k = b / line_pairs<Spline>;
-    return (a == 2 ? w.z_slope[k] : w.z_value[k]) * plane;
+    return across_planes<Spline>(a == 2 ? w.slope : w.value, b) * plane;
   }
 }
 
@@ -90,7 +111,8 @@ struct BlockReader {
 /// Scatters in blocks: accumulate(p, weights, sums) adds one particle to sums[quantity][block].
 /// begin_run(row, lateral) comes before each run. Sums of a run start at +0 and are added to the
 /// row buffer, that to the grid. Not collective.
-template <int Dim, int Quantities, class Spline, class BeginRun, class Accumulate>
+template <int Dim, int Quantities, WeightParts Parts = WeightParts::all, class Spline,
+          class BeginRun, class Accumulate>
 void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
                     BeginRun&& begin_run, Accumulate&& accumulate, SlabGrid& grid) {
   constexpr int blocks = stencil_blocks<Dim, Spline>;
@@ -104,10 +126,12 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
         const auto base = cell_index<Dim>(shape, row, lateral);
         alignas(64) Lanes sums[Quantities][blocks] = {};
         begin_run(row, lateral);
-        for (; first != last; ++first) {
-          accumulate(*first, block_weights<Dim>(spline, particles, *first, base, inverse_cell),
-                     sums);
-        }
+        for_each_weighted(
+            first, last,
+            [&](std::uint32_t p) {
+              return block_weights<Dim, Parts>(spline, particles, p, base, inverse_cell);
+            },
+            [&](std::uint32_t p, const auto& w) { accumulate(p, w, sums); });
         for (int q = 0; q < Quantities; ++q) {
           for (int b = 0; b < blocks; ++b) buffer.rows.add(sums[q][b], q, b, lateral);
         }
@@ -116,8 +140,8 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
 }
 
 /// Adds weight times value to the sums of every quantity.
-template <int Dim, class Spline, std::size_t Quantities, class Sums>
-inline void add_values(const BlockWeights<Dim, Spline>& w,
+template <int Dim, class Spline, WeightParts Parts, std::size_t Quantities, class Sums>
+inline void add_values(const BlockWeights<Dim, Spline, Parts>& w,
                        const std::array<double, Quantities>& values, Sums& sums) {
   for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) {
     const Lanes weight = value_in<Dim, Spline>(w, b);
@@ -131,9 +155,10 @@ inline void add_values(const BlockWeights<Dim, Spline>& w,
 template <int Dim, int Quantities, class Spline, class Values>
 void scatter_values(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
                     Values&& values, SlabGrid& grid) {
-  scatter_blocks<Dim, Quantities>(
+  constexpr WeightParts parts = WeightParts::values;
+  scatter_blocks<Dim, Quantities, parts>(
       spline, particles, cells, [](int, int) {},
-      [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
+      [&](std::uint32_t p, const BlockWeights<Dim, Spline, parts>& w, auto& sums) {
         std::array<double, Quantities> value = values(p);
         for (double& x : value) x = unscaled<Dim, Spline>(x);
         add_values(w, value, sums);
