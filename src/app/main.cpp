@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 
@@ -61,9 +62,8 @@ int guarded(const poreshock::Command& command, MPI_Comm communicator, MPI_Comm f
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Reads the command line, starts MPI and runs the command; returns the exit code.
+int run(int argc, char** argv) {
   CLI::App app{"poreshock: strong shocks in porous and granular solids"};
   app.set_version_flag("--version", poreshock::build_information());
   app.require_subcommand(1);
@@ -92,4 +92,16 @@ int main(int argc, char** argv) {
   const int code = guarded(command, runtime.communicator(), farewell);
   MPI_Comm_free(&farewell);
   return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // What comes here was thrown outside of the command, where no rank knows of the others.
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "poreshock: %s\n", error.what());
+    return static_cast<int>(poreshock::ExitCode::system_failure);
+  }
 }

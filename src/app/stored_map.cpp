@@ -141,10 +141,10 @@ StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& opti
   map.first = grid.first_row() == 0;
   map.last = grid.first_row() + grid.rows() == map.layout.pixels[Dim - 1];
   const auto first = static_cast<std::uint64_t>(grid.first_row());
-  const auto rows = static_cast<std::uint64_t>(map.rows + (map.last ? 0 : 1));
+  const auto rows = static_cast<std::uint64_t>(map.rows) + (map.last ? 0U : 1U);
   std::vector<double> values = read_rows(array, first, rows, communicator);
   map.solid = read_solid(array, options.mask, values, first, rows, communicator);
-  const std::size_t stored = static_cast<std::size_t>(map.rows + 1) * grid.row_size();
+  const std::size_t stored = (static_cast<std::size_t>(map.rows) + 1) * grid.row_size();
   values.resize(stored, std::nan(""));
   map.solid.resize(stored, 0);
   map.values = {std::move(values)};

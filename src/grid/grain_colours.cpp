@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <ranges>
 #include <set>
 #include <string>
 
@@ -163,23 +164,23 @@ std::vector<std::int8_t> colour_grains(std::int32_t grains, const std::vector<Gr
   }
   std::vector<std::int8_t> colour(near.size(), -1);
   const std::vector<std::int32_t> order = smallest_first(near);
-  for (auto grain = order.rbegin(); grain != order.rend(); ++grain) {
+  for (const std::int32_t grain : std::views::reverse(order)) {
     std::array<bool, most_colours> taken{};
-    for (const std::int32_t other : near[static_cast<std::size_t>(*grain)]) {
+    for (const std::int32_t other : near[static_cast<std::size_t>(grain)]) {
       const std::int8_t c = colour[static_cast<std::size_t>(other)];
       if (c >= 0) taken[static_cast<std::size_t>(c)] = true;
     }
     const auto free = std::find(taken.begin(), taken.end(), false);
     if (free == taken.end()) {
-      throw StateError("grain " + std::to_string(*grain) + " is near " +
-                       std::to_string(near[static_cast<std::size_t>(*grain)].size()) +
+      throw StateError("grain " + std::to_string(grain) + " is near " +
+                       std::to_string(near[static_cast<std::size_t>(grain)].size()) +
                        " others, grain " +
-                       std::to_string(near[static_cast<std::size_t>(*grain)].front()) +
+                       std::to_string(near[static_cast<std::size_t>(grain)].front()) +
                        " among them, and all " + std::to_string(most_colours) +
                        " velocity fields are taken there. Grains so close must be at least about "
                        "two cells across: set domain.cell finer, or make the grains larger.");
     }
-    colour[static_cast<std::size_t>(*grain)] = static_cast<std::int8_t>(free - taken.begin());
+    colour[static_cast<std::size_t>(grain)] = static_cast<std::int8_t>(free - taken.begin());
   }
   std::replace(colour.begin(), colour.end(), std::int8_t{-1}, std::int8_t{0});
   return colour;

@@ -234,6 +234,7 @@ std::vector<HotSpot<Dim>> find_hot_spots(const PixelField<Dim>& map, std::size_t
     return a.pixels != b.pixels ? a.pixels > b.pixels : a.first < b.first;
   });
   std::vector<HotSpot<Dim>> spots;
+  spots.reserve(domains.size());
   for (const DomainPart& part : domains) spots.push_back(hot_spot(part, map, inverse_quantum));
   return spots;
 }

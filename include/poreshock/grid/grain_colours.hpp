@@ -21,6 +21,7 @@ struct GrainCell {
   std::int32_t row = 0;
   std::int32_t lateral = 0;
   std::int32_t grain = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr): version 14 takes the comparison for a null pointer.
   auto operator<=>(const GrainCell&) const = default;
 };
 
