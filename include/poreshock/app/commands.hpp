@@ -10,10 +10,6 @@
 #include "poreshock/app/compare.hpp"
 #include "poreshock/core/error.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace poreshock {
 
 enum class CommandKind { run, check, sample, analyze, compare, info, materials, keys };
@@ -32,9 +28,6 @@ struct Command {
   AnalyzeOptions analyze;
   CompareOptions compare;
 };
-
-/// Declares all commands and their options. Not collective.
-void declare(Command& command, CLI::App& app);
 
 /// Carries out a command. Throws InputError, StateError, SystemError. Collective.
 ExitCode execute(const Command& command, MPI_Comm communicator);
