@@ -25,6 +25,7 @@ RecordTables make_tables(const RecordStamp& stamp, const Profile& profile) {
   add("density", "kg/m^3", profile.density);
   add("pressure", "Pa", profile.pressure);
   add("stress", "Pa", profile.stress);
+  add("momentum_flux", "Pa", profile.momentum_flux);
   add("temperature", "K", profile.temperature);
   add("plastic_strain", "1", profile.plastic_strain);
   add("velocity_x", "m/s", profile.velocity[0]);

@@ -12,7 +12,20 @@ namespace {
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums kept for each row, in this order; the momentum takes Dim places.
-enum RowSum : std::size_t { mass, volume, pressure_work, stress_work, heat, strain, momentum };
+enum RowSum : std::size_t {
+  mass,
+  volume,
+  pressure_work,
+  stress_work,
+  viscous_work,
+  heat,
+  strain,
+  momentum
+};
+
+/// Kinetic energy of the deviation from the mean velocity of a row: of all components, and of the
+/// one along the shock axis.
+enum FluctuationSum : std::size_t { all_axes, shock_axis, fluctuation_sum_count };
 
 /// Inverse quanta of the sums: powers of two, so that rounding stays below 2^-50 of what one
 /// particle usually brings.
@@ -76,6 +89,7 @@ void add_particle(const Particles<Dim>& particles, std::size_t p, double share, 
   to[volume] += quantise(v, per.volume);
   to[pressure_work] += quantise(v * pressure, per.energy);
   to[stress_work] += quantise(v * (pressure - particles.deviator[Dim - 1][p]), per.energy);
+  to[viscous_work] += quantise(v * particles.viscous_pressure[p], per.energy);
   to[heat] += quantise(m * temperature, per.heat);
   to[strain] += quantise(m * particles.plastic_strain[p], per.mass);
   for (int a = 0; a < Dim; ++a) {
@@ -100,7 +114,8 @@ std::vector<Int128> row_sums(const Simulation<Dim>& sim, const std::vector<doubl
   return sums;
 }
 
-/// Kinetic energy of the deviation from the mean velocities of the rows. Collective.
+/// Kinetic energies of the deviation from the mean velocities of the rows, row after row.
+/// Collective.
 template <int Dim>
 std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim,
                                      const std::array<std::vector<double>, 3>& mean,
@@ -108,20 +123,26 @@ std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim,
   const PlaceScales scales = place_scales<Dim>(sim.scene);
   const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
   const Particles<Dim>& particles = sim.particles;
-  std::vector<Int128> sums(mean[0].size());
+  std::vector<Int128> sums(fluctuation_sum_count * mean[0].size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    double gradient = 0.0;
+    std::array<double, Dim> gradient{};  // squares of the affine part of each component
     if (inertia > 0.0) {
-      for (const auto& column : particles.affine) gradient += column[p] * column[p];
+      for (std::size_t k = 0; k < particles.affine.size(); ++k) {
+        gradient[k / Dim] += particles.affine[k][p] * particles.affine[k][p];
+      }
     }
     const auto add = [&](std::size_t row, double share) {
       if (std::isnan(mean[0][row])) return;
-      double square = inertia * gradient;
+      const double half_mass = 0.5 * (share * particles.mass[p]);
+      double square = 0.0, along = 0.0;
       for (std::size_t a = 0; a < Dim; ++a) {
         const double deviation = particles.velocity[a][p] - mean[a][row];
-        square += deviation * deviation;
+        along = inertia * gradient[a] + deviation * deviation;
+        square += along;
       }
-      sums[row] += quantise(0.5 * (share * particles.mass[p]) * square, per.energy);
+      Int128* const to = &sums[fluctuation_sum_count * row];
+      to[all_axes] += quantise(half_mass * square, per.energy);
+      to[shock_axis] += quantise(half_mass * along, per.energy);
     };
     const Place place = place_of(particles, p, scales);
     add(place.row, place.share);
@@ -133,8 +154,8 @@ std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim,
 
 template <int Dim>
 void resize(std::size_t rows, Profile& profile) {
-  for (auto* column : {&profile.density, &profile.pressure, &profile.stress, &profile.temperature,
-                       &profile.plastic_strain, &profile.fluctuation}) {
+  for (auto* column : {&profile.density, &profile.pressure, &profile.stress, &profile.momentum_flux,
+                       &profile.temperature, &profile.plastic_strain, &profile.fluctuation}) {
     column->assign(rows, no_value);
   }
   for (std::size_t a = 0; a < Dim; ++a) profile.velocity[a].assign(rows, no_value);
@@ -154,6 +175,8 @@ void divide_sums(const std::vector<Int128>& sums, const Quanta& per, double row_
     profile.density[j] = m / v;
     profile.pressure[j] = static_cast<double>(from[pressure_work]) / per.energy / v;
     profile.stress[j] = static_cast<double>(from[stress_work]) / per.energy / v;
+    profile.momentum_flux[j] =
+        static_cast<double>(from[stress_work] + from[viscous_work]) / per.energy / v;
     profile.temperature[j] = static_cast<double>(from[heat]) / per.heat / m;
     profile.plastic_strain[j] = static_cast<double>(from[strain]) / per.mass / m;
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -217,9 +240,12 @@ Profile measure_profile(const Simulation<Dim>& sim, std::int64_t& floored) {
     profile.height[static_cast<std::size_t>(j)] = (j + 0.5) * domain.cell;
   divide_sums<Dim>(row_sums(sim, temperature, per), per, row_volume, profile);
   const std::vector<Int128> kinetic = fluctuation_sums(sim, profile.velocity, per);
-  for (std::size_t j = 0; j < kinetic.size(); ++j) {
-    const double m = profile.density[j] * (profile.solid_fraction[j] * row_volume);
-    profile.fluctuation[j] = static_cast<double>(kinetic[j]) / per.energy / m;
+  for (std::size_t j = 0; j < profile.height.size(); ++j) {
+    const Int128* from = &kinetic[fluctuation_sum_count * j];
+    const double v = profile.solid_fraction[j] * row_volume;
+    profile.fluctuation[j] =
+        static_cast<double>(from[all_axes]) / per.energy / (profile.density[j] * v);
+    profile.momentum_flux[j] += 2.0 * static_cast<double>(from[shock_axis]) / per.energy / v;
   }
   const Front front = wall_front(sim.scene, profile);
   profile.front = front.position;

@@ -21,7 +21,8 @@ Profile sample_profile(std::int64_t record, std::size_t rows = 3) {
   profile.shift = 0.5 * value;
   for (std::size_t j = 0; j < rows; ++j) profile.height.push_back(static_cast<double>(j) + 0.5);
   profile.solid_fraction = profile.density = profile.pressure = column;
-  profile.stress = profile.temperature = profile.plastic_strain = profile.fluctuation = column;
+  profile.stress = profile.momentum_flux = profile.temperature = column;
+  profile.plastic_strain = profile.fluctuation = column;
   profile.velocity[0] = profile.velocity[1] = column;
   profile.density.back() = std::nan("");
   profile.front = 10.0 * value;
@@ -51,7 +52,7 @@ TEST(ProfileFile, OneRecord) {
   EXPECT_EQ(file.read_all<double>("/front/position"), (std::vector<double>{70.0}));
   EXPECT_TRUE(std::isnan(file.read_all<double>("/front/width")[0]));
   // Two velocities in plane strain.
-  EXPECT_EQ(file.datasets().size(), 5u + 9u + 5u);
+  EXPECT_EQ(file.datasets().size(), 5u + 10u + 5u);
 }
 
 TEST(ProfileFile, MergedInOrderAndTakenBack) {

@@ -12,14 +12,16 @@
 namespace poreshock::test {
 namespace {
 
-const std::vector<std::string> names = {"solid_fraction", "density",         "pressure",
-                                        "stress",         "temperature",     "plastic_strain",
-                                        "fluctuation",    "velocity across", "velocity along"};
+const std::vector<std::string> names = {
+    "solid_fraction", "density",     "pressure",      "stress",          "temperature",
+    "plastic_strain", "fluctuation", "momentum_flux", "velocity across", "velocity along"};
 
 std::vector<std::vector<double>> columns(const Profile& p, int dimension) {
-  return {p.solid_fraction, p.density,     p.pressure,
-          p.stress,         p.temperature, p.plastic_strain,
-          p.fluctuation,    p.velocity[0], p.velocity[static_cast<std::size_t>(dimension - 1)]};
+  return {p.solid_fraction, p.density,
+          p.pressure,       p.stress,
+          p.temperature,    p.plastic_strain,
+          p.fluctuation,    p.momentum_flux,
+          p.velocity[0],    p.velocity[static_cast<std::size_t>(dimension - 1)]};
 }
 
 template <int Dim>
@@ -86,6 +88,15 @@ Profile plain_profile(const Simulation<Dim>& sim) {
       if (inertia > 0.0) square += inertia * column[p] * column[p];
     }
     return 0.5 * square;
+  });
+  profile.momentum_flux = plain_mean(sim, volume, [&](std::size_t p, std::size_t j) {
+    constexpr std::size_t along = Dim - 1;
+    double square = std::pow(particles.velocity[along][p] - profile.velocity[along][j], 2.0);
+    for (std::size_t k = 0; k < Dim && inertia > 0.0; ++k) {
+      square += inertia * std::pow(particles.affine[along * Dim + k][p], 2.0);
+    }
+    return particles.pressure[p] - particles.deviator[along][p] + particles.viscous_pressure[p] +
+           particles.density[p] * square;
   });
   return profile;
 }

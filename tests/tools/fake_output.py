@@ -8,9 +8,11 @@ WIDTH, HEIGHT, CELL = 0.4e-3, 2.0e-3, 10e-6
 SPEED, FRONT, HOT = 1100.0, 5700.0, 480.0  # m/s, m/s relative to the wall, K
 WALL_STRESS = 6.9e9  # Pa
 # Behind the made-up front: rows of the profiles, in SI units.
-BEHIND = {"solid_fraction": 0.99, "density": 2850.0, "pressure": 6.8e9, "stress": 7.0e9, "temperature": 980.0,
+BEHIND = {"solid_fraction": 0.99, "density": 2850.0, "pressure": 6.8e9, "stress": 7.0e9, "momentum_flux": 7.1e9,
+          "temperature": 980.0,
           "plastic_strain": 0.6, "velocity_x": 0.0, "velocity_y": 0.0, "fluctuation": 880.0}
-AHEAD = {"solid_fraction": 0.7, "density": 2700.0, "pressure": 0.0, "stress": 0.0, "temperature": 300.0,
+AHEAD = {"solid_fraction": 0.7, "density": 2700.0, "pressure": 0.0, "stress": 0.0, "momentum_flux": 0.0,
+         "temperature": 300.0,
          "plastic_strain": 0.0, "velocity_x": 0.0, "velocity_y": -SPEED, "fluctuation": 0.0}
 THRESHOLDS = numpy.arange(310.0, 700.0, 10.0)
 

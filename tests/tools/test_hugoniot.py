@@ -96,7 +96,7 @@ class Measuring(unittest.TestCase):
         measured = {row[0]: row[1] for row in rows}
         self.assertEqual(measured, {
             "Us [m/s]": "3300.0", "Up [m/s]": "1100.0", "P [GPa]": "6.9300",  # 0.99 of the stress of the solid
-            "P at the wall [GPa]": f"{WALL_STRESS / 1e9:.4f}", "rho [kg/m3]": "2821.5", "T [K]": "980.0",
+            "momentum flux [GPa]": "7.0290", "P at the wall [GPa]": f"{WALL_STRESS / 1e9:.4f}", "rho [kg/m3]": "2821.5", "T [K]": "980.0",
             "T + fluctuation / c_v [K]": "981.0"})  # 880 J/kg more at 880 J/(kg K)
         self.assertEqual([row[5] for row in rows][:3], ["3336.3", "1100.0", "6.9361"])
         self.assertEqual(rows[0][6], "-1.09 %")

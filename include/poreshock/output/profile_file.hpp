@@ -27,6 +27,9 @@ struct Profile {
   std::vector<double> pressure;        ///< Pa, weighted with volume
   std::vector<double> stress;          ///< Pa, longitudinal, compression positive, without
                                        ///< artificial viscosity, weighted with volume
+  std::vector<double> momentum_flux;   ///< Pa, through planes that move with the row's mean
+                                       ///< velocity: stress, artificial viscosity and density x
+                                       ///< square of the deviation of the velocity along the axis
   std::vector<double> temperature;     ///< K, weighted with mass
   std::vector<double> plastic_strain;  ///< weighted with mass
   std::array<std::vector<double>, 3> velocity;  ///< m/s, weighted with mass; z empty in 2-D
