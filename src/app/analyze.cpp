@@ -52,6 +52,7 @@ std::vector<double> parse_levels(const std::string& option, const std::string& t
   std::vector<double> levels;
   // The small share takes up the rounding of the division, so that the end itself is not lost.
   const int count = static_cast<int>(std::floor(steps + 1e-6)) + 1;
+  levels.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) levels.push_back(numbers[0] + i * numbers[2]);
   return levels;
 }

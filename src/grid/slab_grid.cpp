@@ -78,6 +78,7 @@ SlabGrid::SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm com
   planes_ = depth * (depth + 1) / 2;
 
   std::vector<PetscInt> rows_per_rank;
+  rows_per_rank.reserve(static_cast<std::size_t>(ranks));
   for (int r = 0; r < ranks; ++r) rows_per_rank.push_back(starts_[r + 1] - starts_[r]);
   const PetscInt all[1] = {shape.row_size};
   // Lateral axes stay whole on every rank, so one flattened lateral axis serves 2-D and 3-D.

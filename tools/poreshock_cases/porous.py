@@ -1,4 +1,5 @@
-"""Porous samples against what must hold on average: the in-situ Hugoniot, and the quality of a collapse."""
+"""Porous samples and beds of grains against what must hold on average: the in-situ Hugoniot, and the quality of a
+collapse."""
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
@@ -13,17 +14,22 @@ from poreshock_report.hugoniot import snow_plow
 # Void fraction and end of the run, s: the front is then about 1.1 mm above the wall.
 SAMPLES = ((0.077, 250e-9), (0.3, 500e-9), (0.46, 800e-9))
 SEEDS = (1, 2, 3, 4)
-FIGURES = (("Us", 0.02), ("P at the wall", 0.05), ("P behind the front", 0.05), ("rise of mean T", 0.08),
-           ("rise of mean T + fluctuation / c_v", 0.04))
+FLUX = "momentum flux behind the front"
+STATE = ("P behind the front", FLUX, "rise of mean T", "rise of mean T + fluctuation / c_v")
+FIGURES = ("Us", "P at the wall", *STATE)
+BARS = {"Us": 0.02, "P at the wall": 0.05, "P behind the front": 0.05, "rise of mean T": 0.08,
+        "rise of mean T + fluctuation / c_v": 0.04}
+BED_SEEDS = (1, 2, 3, 4, 5, 6)
+BED_END = 280e-9  # s, the front is then in the upper third of the bed
+BED_BARS = dict.fromkeys(("Us", "P at the wall", "P behind the front", FLUX), 0.03)
 COLLAPSE_CELLS = (10e-6, 5e-6, 2.5e-6)  # m
 FINE_CELL = 2.5e-6  # m
 JUDGED_CELL = 5e-6  # m, the others show the trend
 
 
-def measured(lab, voids, end, seed, cell=5e-6):
-    """One sample: measured figures, each over that of the snow-plow shock of its own void fraction."""
-    run = lab.run(f"hugoniot_{voids:g}_{1e6 * cell:g}_{seed}", "porous_hugoniot.toml", f"sample.porosity={voids:g}",
-                  f"sample.seed={seed}", f"domain.cell={cell!r}", f"time.end={end!r}", "profile.every=5e-9")
+def measured(run):
+    """One sample: FIGURES over those of the snow-plow shock of its own void fraction; STATE over those at the measured
+    Up; Up in m/s, the residual fluctuation in K, the space without particles in percent, and the drift."""
     scene = profiles.reader.read_scene(run.folder)
     setting, rows = profiles.setting_of(scene), profiles.read(run.folder)
     fit = profiles.fit_front(rows, setting)
@@ -33,8 +39,8 @@ def measured(lab, voids, end, seed, cell=5e-6):
 
     def over(plow):
         rise = plow.temperature - start
-        return [state["stress"] / plow.pressure, (state["temperature"] - start) / rise,
-                (state["temperature"] + moving - start) / rise]
+        return [state["stress"] / plow.pressure, state["momentum_flux"] / plow.pressure,
+                (state["temperature"] - start) / rise, (state["temperature"] + moving - start) / rise]
 
     plow = snow_plow(setting.material, fraction, setting.velocity)
     stress = profiles.wall_stress(run.folder, scene, rows, fit)
@@ -43,23 +49,42 @@ def measured(lab, voids, end, seed, cell=5e-6):
             state["velocity"], moving, 100.0 * state["void_fraction"], run.drift]
 
 
-def hugoniot(sample, found, cell=5e-6):
-    """Rows of the mean state behind the front over the samples of one porosity at 1100 m/s; five wall cells are left
-    out."""
+def porous(lab, voids, end, seed, cell=5e-6):
+    """What is measured of one porous sample."""
+    return measured(lab.run(f"hugoniot_{voids:g}_{1e6 * cell:g}_{seed}", "porous_hugoniot.toml",
+                            f"sample.porosity={voids:g}", f"sample.seed={seed}", f"domain.cell={cell!r}",
+                            f"time.end={end!r}", "profile.every=5e-9"))
+
+
+def bed(lab, seed):
+    """What is measured of one bed of grains."""
+    return measured(lab.run(f"bed_{seed}", "grain_bed.toml", f"sample.seed={seed}", f"time.end={BED_END!r}",
+                            "profile.every=5e-9", "morphology.every=0.0", "output.snapshot=1.0"))
+
+
+def hugoniot(name, found, bars):
+    """Rows of the mean state behind the front over samples of one kind; five wall cells are left out."""
     many = f"{len(found)} samples" if len(found) > 1 else "one sample"
-    case = f"porous Hugoniot, void fraction {sample[0]:g}, 1100 m/s, {1e6 * cell:g} um, {many}"
+    case = f"{name}, {many}"
     values = numpy.array(found).T
     mean = values.mean(axis=1)
     error = values.std(axis=1, ddof=1) / len(found)**0.5 if len(found) > 1 else numpy.full(len(mean), numpy.nan)
     off = [f"{100.0 * (x - 1.0):+.1f} %" + (f" +- {100.0 * e:.1f} %" if e == e else "") for x, e in zip(mean, error)]
-    rows = [check(case, figure, off[i], f"snow-plow +- {100.0 * bar:g} %", abs(mean[i] - 1.0) <= bar)
-            for i, (figure, bar) in enumerate(FIGURES)]
+    rows = [check(case, figure, off[i], f"snow-plow +- {100.0 * bars[figure]:g} %", abs(mean[i] - 1.0) <= bars[figure])
+            if figure in bars else shown(case, figure, off[i]) for i, figure in enumerate(FIGURES)]
     rows += [shown(case, f"{figure}, against the snow-plow of the measured Up", off[i])
-             for i, (figure, _) in enumerate(FIGURES[2:], len(FIGURES))]
+             for i, figure in enumerate(STATE, len(FIGURES))]
     return rows + [shown(case, "Up behind the front", f"{mean[-4]:.0f} m/s"),
                    shown(case, "residual velocity fluctuation / c_v", f"{mean[-3]:.1f} K"),
                    shown(case, "space behind the front that no particle fills", f"{mean[-2]:.1f} %"),
                    limit(case, "energy drift", values[-1].max(), DRIFT)]
+
+
+def beds(lab, jobs):
+    """Rows of beds of grains with friction 0.5."""
+    with ThreadPoolExecutor(jobs) as pool:
+        found = [*pool.map(partial(bed, lab), BED_SEEDS)]
+    return hugoniot("beds of grains, void fraction 0.3, 1100 m/s, 6.25 um", found, BED_BARS)
 
 
 def quantile(values, weights, share):
@@ -115,10 +140,15 @@ def rows(lab, jobs, fine):
     """All rows of porous samples; with `fine` also the one whose gaps need cells half as large."""
     runs = [(*sample, seed) for sample in SAMPLES for seed in SEEDS]
     with ThreadPoolExecutor(jobs) as pool:
-        shocks = [*pool.map(lambda run: measured(lab, *run), runs)]
+        shocks = [*pool.map(lambda run: porous(lab, *run), runs)]
         collapses = [*pool.map(partial(collapse, lab), COLLAPSE_CELLS)]
-    found = [hugoniot(sample, shocks[i * len(SEEDS):(i + 1) * len(SEEDS)]) for i, sample in enumerate(SAMPLES)]
+
+    def name(sample, cell=5e-6):
+        return f"porous Hugoniot, void fraction {sample[0]:g}, 1100 m/s, {1e6 * cell:g} um"
+
+    found = [hugoniot(name(sample), shocks[i * len(SEEDS):(i + 1) * len(SEEDS)], BARS)
+             for i, sample in enumerate(SAMPLES)]
     if fine:
         sample = SAMPLES[-1]
-        found.append(hugoniot(sample, [measured(lab, *sample, SEEDS[0], FINE_CELL)], FINE_CELL))
+        found.append(hugoniot(name(sample, FINE_CELL), [porous(lab, *sample, SEEDS[0], FINE_CELL)], BARS))
     return [row for part in found + collapses for row in part]

@@ -128,7 +128,7 @@ class State:
         return self.mean[self.names.index(name)]
 
 
-NAMES = ("velocity", "stress", "density", "void_fraction", "temperature", "fluctuation")
+NAMES = ("velocity", "stress", "momentum_flux", "density", "void_fraction", "temperature", "fluctuation")
 
 
 def window_means(profiles, record, low, high):
@@ -138,11 +138,12 @@ def window_means(profiles, record, low, high):
     if inside.sum() < LEAST_ROWS or not numpy.all(numpy.isfinite(row["density"])):
         return None
     solid, velocity = row["solid_fraction"], profiles.row["velocity"][record]
+    flux = row.get("momentum_flux", numpy.full(len(solid), numpy.nan))  # older files have none
     mass = solid * row["density"]
     # The highest row with material is untouched as long as there is a front.
     ahead = velocity[numpy.isfinite(velocity)][-1]
     return inside.sum(), (numpy.average(row["velocity"], weights=mass) - ahead, numpy.mean(solid * row["stress"]),
-                          numpy.mean(mass), 1.0 - numpy.mean(solid),
+                          numpy.mean(solid * flux), numpy.mean(mass), 1.0 - numpy.mean(solid),
                           numpy.average(row["temperature"], weights=mass),
                           numpy.average(row["fluctuation"], weights=mass))
 
@@ -187,9 +188,9 @@ def wall_stress(folder, scene, profiles, fit):
 
 
 def references(setting, voids):
-    """Rows (Us, Up, P, P, rho, T, T) of solid with strength, snow-plow and P-alpha; None where undefined."""
+    """Rows (Us, Up, P, P, P, rho, T, T) of solid with strength, snow-plow and P-alpha; None where undefined."""
     def row(state, speed, stress):
-        return (speed, setting.velocity, stress, stress, state.density, state.temperature, state.temperature)
+        return (speed, setting.velocity, stress, stress, stress, state.density, state.temperature, state.temperature)
 
     try:
         solid = plate_exact.solve(setting.material, setting.velocity).final
@@ -206,7 +207,7 @@ def references(setting, voids):
 
 HEAD = ("quantity", "measured", "+-", "solid", "error", "snow-plow", "error", "P-alpha", "error")
 QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e9, ".4f"),
-              ("P at the wall [GPa]", 1e9, ".4f"), ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
+              ("momentum flux [GPa]", 1e9, ".4f"), ("P at the wall [GPa]", 1e9, ".4f"), ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
               ("T + fluctuation / c_v [K]", 1.0, ".1f"))
 
 
@@ -223,7 +224,8 @@ def method(setting, profiles, fit, state, voids):
         f"State: means over {state.records} of these records and the rows from {1e3 * state.low:.3f} mm "
         f"above the wall to {1e3 * state.distance:.3f} mm below the front; +- is the standard deviation between "
         f"records. {100.0 * max(state['void_fraction'], 0.0):.2f} % of these rows is void. P is the longitudinal "
-        "stress and rho the density, of solid and voids together; P at the wall is the wall impulse over area and time.",
+        "stress and rho the density, of solid and voids together; the momentum flux has artificial viscosity and the "
+        "residual motion beside the stress; P at the wall is the wall impulse over area and time.",
         "Curves: the solid with strength, complete collapse without strength (snow-plow), and P-alpha with the "
         f"static crush curve of {'cylinders' if setting.dimension == 2 else 'spheres'}."]
     if setting.thermal == "paper":
@@ -240,10 +242,10 @@ def compare(folder):
     voids = void_fraction(profiles, setting)
     spread = dict(zip(state.names, state.spread))
     cv = setting.material.cv
-    measured = (fit.slope + setting.velocity, state["velocity"], state["stress"],
+    measured = (fit.slope + setting.velocity, state["velocity"], state["stress"], state["momentum_flux"],
                 wall_stress(folder, scene, profiles, fit), state["density"], state["temperature"],
                 state["temperature"] + state["fluctuation"] / cv)
-    errors = (fit.error, spread["velocity"], spread["stress"], numpy.nan, spread["density"], spread["temperature"],
+    errors = (fit.error, spread["velocity"], spread["stress"], spread["momentum_flux"], numpy.nan, spread["density"], spread["temperature"],
               numpy.nan)
     curves, rows = references(setting, voids), []
     for i, (name, unit, digits) in enumerate(QUANTITIES):
