@@ -4,7 +4,6 @@
 // lane.
 
 #include <cmath>
-#include <utility>
 #ifdef __FMA__
 #include <immintrin.h>
 #endif
@@ -154,7 +153,12 @@ inline void transpose(Lanes* x) {
   transpose_halves(x[4].high, x[5].high, x[6].high, x[7].high);
   transpose_halves(x[0].high, x[1].high, x[2].high, x[3].high);
   transpose_halves(x[4].low, x[5].low, x[6].low, x[7].low);
-  for (int k = 0; k < lane_count / 2; ++k) std::swap(x[k].high, x[k + 4].low);
+  for (int k = 0; k < lane_count / 2; ++k) {
+    // Not std::swap: a template argument forgets that the lanes may lie at any address.
+    const HalfLanes high = x[k].high;
+    x[k].high = x[k + 4].low;
+    x[k + 4].low = high;
+  }
 #endif
 }
 
