@@ -47,19 +47,19 @@ class Expectation {
     height_ = image.height;
     const double thresholds[] = {threshold};
     const PixelCounts c = count_whole(image, thresholds);
-    F_.add(static_cast<double>(c.F[0]));
-    B_.add(static_cast<double>(c.B_int[0]));
+    faces_.add(static_cast<double>(c.F[0]));
+    sides_.add(static_cast<double>(c.B_int[0]));
     axial_.add(static_cast<double>(c.B_axial[0]));
-    D_.add(static_cast<double>(c.D_int[0]));
+    diagonals_.add(static_cast<double>(c.D_int[0]));
     chi_.add(static_cast<double>(c.V[0] - c.E[0] + c.F[0]));
   }
 
   void check(const Black& black) const {
     const double across = width_ * height_, up = width_ * (height_ - 1.0), frame = 2.0 * width_;
-    EXPECT_LT(std::abs(F_.score(across * (1.0 - black.one))), 4.5);
-    EXPECT_LT(std::abs(B_.score(2.0 * (across + up) * (black.one - black.two))), 4.5);
+    EXPECT_LT(std::abs(faces_.score(across * (1.0 - black.one))), 4.5);
+    EXPECT_LT(std::abs(sides_.score(2.0 * (across + up) * (black.one - black.two))), 4.5);
     EXPECT_LT(std::abs(axial_.score(2.0 * up * (black.one - black.two))), 4.5);
-    EXPECT_LT(std::abs(D_.score(4.0 * up * (black.one - black.diagonal))), 4.5);
+    EXPECT_LT(std::abs(diagonals_.score(4.0 * up * (black.one - black.diagonal))), 4.5);
     const double vertices = up * (1.0 - black.four) + frame * (1.0 - black.two);
     const double edges = (across + up) * (1.0 - black.two) + frame * (1.0 - black.one);
     EXPECT_LT(std::abs(chi_.score(vertices - edges + across * (1.0 - black.one))), 4.5);
@@ -67,7 +67,7 @@ class Expectation {
 
  private:
   int width_ = 0, height_ = 0;
-  Mean F_, B_, axial_, D_, chi_;
+  Mean faces_, sides_, axial_, diagonals_, chi_;
 };
 
 Image blank(int width, int height) {
@@ -100,7 +100,8 @@ Image discs(int width, int height, double radius, double density, Random& random
          z < std::min(height, static_cast<int>(cz + margin) + 1); ++z) {
       for (int x = static_cast<int>(std::floor(cx - margin)); x <= cx + margin; ++x) {
         if (std::hypot(x - cx, z - cz) > radius) continue;
-        image.values[static_cast<std::size_t>((x + width) % width + width * z)] = 1.0;
+        const int place = (x + width) % width + width * z;
+        image.values[static_cast<std::size_t>(place)] = 1.0;
       }
     }
   }
@@ -206,11 +207,13 @@ Image smoothed(int width, int height, const std::vector<double>& weights, Random
       double sum = 0.0;
       for (int j = 0; j < reach; ++j) {
         for (int i = 0; i < reach; ++i) {
+          const int place = (x + i) % width + width * (z + j);
           sum += weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)] *
-                 noise[static_cast<std::size_t>((x + i) % width + width * (z + j))];
+                 noise[static_cast<std::size_t>(place)];
         }
       }
-      image.values[static_cast<std::size_t>(x + width * z)] = sum / scale;
+      const int place = x + width * z;
+      image.values[static_cast<std::size_t>(place)] = sum / scale;
     }
   }
   return image;

@@ -31,7 +31,7 @@ FileSpec small_spec(std::uint64_t rows) {
 TEST(Hdf5File, EveryTypeComesBackFromUnevenRanks) {
   const TemporaryFolder folder;
   // Rank r brings 5 r rows: rank 0 none.
-  const auto mine = static_cast<std::uint64_t>(5 * rank(world));
+  const auto mine = 5 * static_cast<std::uint64_t>(rank(world));
   const RowRange rows = rows_in_rank_order(mine, world);
   ASSERT_EQ(rows.total, static_cast<std::uint64_t>(5 * size(world) * (size(world) - 1) / 2));
   std::vector<double> vectors(3 * mine);
