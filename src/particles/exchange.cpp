@@ -35,10 +35,6 @@ void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
                               const std::vector<std::uint32_t>& up,
                               const std::vector<std::uint32_t>& gone, Particles<Dim>& particles,
                               MPI_Comm communicator) {
-  const int me = rank(communicator);
-  const int ranks = size(communicator);
-  const int below = me > 0 ? me - 1 : MPI_PROC_NULL;
-  const int above = me + 1 < ranks ? me + 1 : MPI_PROC_NULL;
   const std::size_t bytes = bytes_per_particle(particles);
   std::vector<std::byte> to_below, to_above;
   pack(particles, down, to_below);
@@ -47,11 +43,10 @@ void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
   holes.insert(holes.end(), up.begin(), up.end());
   holes.insert(holes.end(), gone.begin(), gone.end());
   remove(std::move(holes), particles);
-  if (ranks == 1) return;
-  const auto from_above = shift(to_below, bytes, below, above, 10, communicator);
-  const auto from_below = shift(to_above, bytes, above, below, 20, communicator);
-  unpack(from_above.data(), from_above.size() / bytes, particles);
-  unpack(from_below.data(), from_below.size() / bytes, particles);
+  if (size(communicator) == 1) return;
+  const auto from = swap_with_neighbours(to_below, to_above, bytes, 10, communicator);
+  unpack(from.above.data(), from.above.size() / bytes, particles);
+  unpack(from.below.data(), from.below.size() / bytes, particles);
 }
 
 template <int Dim>

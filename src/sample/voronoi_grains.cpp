@@ -168,11 +168,6 @@ GrainLayout divide_into_grains(const Scene& scene) {
   const double shrink =
       std::pow(centre_share(scene.dimension), 1.0 / static_cast<double>(scene.dimension));
   for (Void& v : packing.voids) v.radius *= shrink;
-  if (packing.voids.size() < 2) {
-    throw InputError("sample.grain_radius = " + length_text(scene.sample.grain_radius) +
-                     " makes a single Voronoi grain. Allowed are two or more. Lower "
-                     "sample.grain_radius.");
-  }
   if (!add_in_sequence(packing) && !relax(packing)) {
     throw InputError("sample.grain_radius = " + length_text(scene.sample.grain_radius) +
                      ": the centres of " + std::to_string(packing.voids.size()) +

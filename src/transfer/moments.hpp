@@ -41,16 +41,12 @@ inline PointWeights<Dim> point_weights(const Spline& spline, const Particles<Dim
                                        std::uint32_t p, const std::array<int, Dim>& base,
                                        double inverse_cell) {
   PointWeights<Dim> w;
-  const auto local = [&](int a) {
-    return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
-  };
   const auto store = [&w](const AxisLanes& lanes, int first) {
     *reinterpret_cast<Lanes*>(w.value + first) = lanes.value;
     *reinterpret_cast<Lanes*>(w.slope + first) = lanes.slope;
     *reinterpret_cast<Lanes*>(w.moment + first) = lanes.value * lanes.offset;
   };
-  store(weights_of_two(spline, local(0), local(1)), 0);
-  if constexpr (Dim == 3) store(weights_of_two(spline, local(2), local(2)), lane_count);
+  for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
   return w;
 }
 

@@ -76,10 +76,7 @@ std::vector<CellPoint<Dim>> collect_points(const Particles<Dim>& particles, cons
 template <int Dim>
 void exchange_points(const SlabGrid& grid, std::vector<CellPoint<Dim>>& points) {
   const MPI_Comm communicator = grid.communicator();
-  const int me = rank(communicator), ranks = size(communicator);
-  if (ranks == 1) return;
-  const int below = me > 0 ? me - 1 : MPI_PROC_NULL;
-  const int above = me + 1 < ranks ? me + 1 : MPI_PROC_NULL;
+  if (size(communicator) == 1) return;
   const int depth = grid.shape().stencil - 1;
   constexpr int tag = 40;
   std::vector<CellPoint<Dim>> lowest, highest;
@@ -87,10 +84,9 @@ void exchange_points(const SlabGrid& grid, std::vector<CellPoint<Dim>>& points) 
     if (point.row < grid.first_row() + depth) lowest.push_back(point);
     if (point.row >= grid.last_row() - depth) highest.push_back(point);
   }
-  const auto from_above = shift(lowest, 1, below, above, tag, communicator);
-  const auto from_below = shift(highest, 1, above, below, tag, communicator);
-  points.insert(points.begin(), from_below.begin(), from_below.end());
-  points.insert(points.end(), from_above.begin(), from_above.end());
+  const auto from = swap_with_neighbours(lowest, highest, 1, tag, communicator);
+  points.insert(points.begin(), from.below.begin(), from.below.end());
+  points.insert(points.end(), from.above.begin(), from.above.end());
 }
 
 template <int Dim>

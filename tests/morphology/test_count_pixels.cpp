@@ -65,6 +65,20 @@ TEST(CountPixels, RanksOfOneTwoAndFourBytes) {
   }
 }
 
+TEST(CountPixels, ThresholdsInClusters) {
+  // Pairs, triples ... closer together than a cell of the table of ranks is wide.
+  Random random{7};
+  const Image image = random_image(Texture::noise, {67, 1, 41}, {true, false}, 0.1, random);
+  for (const int together : {1, 2, 3, 4, 5}) {
+    std::vector<double> thresholds;
+    for (int k = 0; k < 20; ++k) {
+      for (int n = 0; n < together; ++n) thresholds.push_back((k + 0.5) / 20 + 1e-4 * n);
+    }
+    EXPECT_TRUE(count_whole(image, thresholds) == count_pixels_plainly(image, thresholds))
+        << together;
+  }
+}
+
 TEST(CountPixels, WideRowsWithUniformStretches) {
   Random random{3};
   const std::vector<double> thresholds = even_thresholds(16);

@@ -234,6 +234,17 @@ TEST(Grains, JammedPackingSaysWhere) {
   expect_words(error_of(scene), {"grains in the sample block"});
 }
 
+TEST(Grains, TooLargeForTheBlockSaysWhatToLower) {
+  Scene scene = grain_scene(SampleKind::packed_grains, 0.4);
+  scene.sample.keep_out = 0.45e-3;
+  expect_words(error_of(scene), {"The largest grain", "but the sample block is",
+                                 "Lower sample.grain_radius", "sample.grain_spread"});
+  // A single Voronoi grain would be as large as the block and as wide as no side of it.
+  scene = grain_scene(SampleKind::voronoi_grains, 0.077);
+  scene.sample.grain_radius = 0.53e-3;
+  expect_words(error_of(scene), {"The largest grain, of radius 0.00056", "is 0.001 m wide"});
+}
+
 TEST(Grains, OverlappingBodiesOfTwoGrainsAreRefused) {
   Scene scene = grain_scene(SampleKind::none, 0.0);
   Body a, b;

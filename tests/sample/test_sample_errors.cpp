@@ -41,6 +41,15 @@ TEST(SampleErrors, TooDenseNamesTheFractionReachedAndTheLimits) {
   EXPECT_LT(reached, 0.7);
 }
 
+TEST(SampleErrors, VoidsWithoutSizeOrWithoutEnd) {
+  Scene scene = plane_scene(1e-3, 0.3);
+  scene.sample.void_radius = 0.0;
+  expect_words(error_of(scene), {"sample.void_radius = 0", "positive length in m"});
+  scene.sample.void_radius = 1e-8;
+  expect_words(error_of(scene),
+               {"sample.void_radius = 1e-08 m", "at most 1e7", "Raise sample.void_radius"});
+}
+
 TEST(SampleErrors, NarrowBlocksAreNamed) {
   Scene scene = plane_scene(1e-3, 0.7);
   scene.sample.void_radius = 0.15e-3;

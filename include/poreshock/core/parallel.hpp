@@ -90,4 +90,25 @@ std::vector<Item> shift(const std::vector<Item>& sent, std::size_t per_unit, int
   return received;
 }
 
+/// What came from the ranks next to this one; empty where there is none.
+template <class Item>
+struct FromNeighbours {
+  std::vector<Item> below, above;
+};
+
+/// Sends items to the rank below and to the one above, as shift() does, and receives theirs. Uses
+/// the tags `tag` ... tag + 3. Collective (neighbours).
+template <class Item>
+FromNeighbours<Item> swap_with_neighbours(const std::vector<Item>& to_below,
+                                          const std::vector<Item>& to_above, std::size_t per_unit,
+                                          int tag, MPI_Comm communicator) {
+  const int me = rank(communicator);
+  const int below = me > 0 ? me - 1 : MPI_PROC_NULL;
+  const int above = me + 1 < size(communicator) ? me + 1 : MPI_PROC_NULL;
+  FromNeighbours<Item> result;
+  result.above = shift(to_below, per_unit, below, above, tag, communicator);
+  result.below = shift(to_above, per_unit, above, below, tag + 2, communicator);
+  return result;
+}
+
 }  // namespace poreshock

@@ -31,9 +31,6 @@ inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
                                                       const std::array<int, Dim>& base,
                                                       double inverse_cell) {
   BlockWeights<Dim, Spline, Parts> w;
-  const auto local = [&](int a) {
-    return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
-  };
   const auto store = [&w](const AxisLanes& lanes, int first) {
     *reinterpret_cast<Lanes*>(w.value.data() + first) = lanes.value;
     if constexpr (Parts == WeightParts::all) {
@@ -41,8 +38,7 @@ inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
       *reinterpret_cast<Lanes*>(w.offset.data() + first) = lanes.offset;
     }
   };
-  store(weights_of_two(spline, local(0), local(1)), 0);
-  if constexpr (Dim == 3) store(weights_of_two(spline, local(2), local(2)), lane_count);
+  for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
   return w;
 }
 

@@ -66,6 +66,19 @@ inline Stencil<Dim, Spline> stencil_at(const Spline& spline, const Particles<Dim
   return result;
 }
 
+/// Calls store(weights, first place) for the axes of a particle, two at a time, four places an
+/// axis.
+template <int Dim, class Spline, class Store>
+inline void for_each_axis_pair(const Spline& spline, const Particles<Dim>& particles,
+                               std::uint32_t p, const std::array<int, Dim>& base,
+                               double inverse_cell, Store&& store) {
+  const auto local = [&](int a) {
+    return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
+  };
+  store(weights_of_two(spline, local(0), local(1)), 0);
+  if constexpr (Dim == 3) store(weights_of_two(spline, local(2), local(2)), lane_count);
+}
+
 /// Offset of stencil node n in a block of node rows that starts at the cell's lateral index.
 /// Stencil nodes are numbered x fastest, shock axis slowest.
 template <int Dim, class Spline>
