@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <ranges>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/morphology/minkowski.hpp"
@@ -153,8 +154,8 @@ Image drawn(const std::vector<std::string>& rows, bool periodic) {
   image.width = static_cast<int>(rows[0].size());
   image.height = static_cast<int>(rows.size());
   image.periodic = periodic;
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    for (const char pixel : *row) {
+  for (const std::string& row : std::views::reverse(rows)) {
+    for (const char pixel : row) {
       image.values.push_back(pixel == '#' ? 1.0 : 0.0);
       image.solid.push_back(pixel == 'o' ? 0 : 1);
     }

@@ -61,8 +61,9 @@ TEST(Fill, SolidBlockIsTheWholeLatticeBelowItsHeight) {
   EXPECT_EQ(report.particle_void_fraction, 0.0);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     EXPECT_EQ(particles.id[p], static_cast<std::int64_t>(p));
-    EXPECT_EQ(particles.position[0][p], 0.25 + 0.5 * static_cast<double>(p % 20));
-    EXPECT_EQ(particles.position[1][p], 0.25 + 0.5 * static_cast<double>(p / 20));
+    const std::size_t column = p % 20, layer = p / 20;
+    EXPECT_EQ(particles.position[0][p], 0.25 + 0.5 * static_cast<double>(column));
+    EXPECT_EQ(particles.position[1][p], 0.25 + 0.5 * static_cast<double>(layer));
     EXPECT_EQ(particles.velocity[0][p], 3.0);
     EXPECT_EQ(particles.velocity[1][p], -1095.0);
     EXPECT_EQ(particles.mass[p], 675.0);
