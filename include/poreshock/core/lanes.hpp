@@ -105,7 +105,7 @@ inline HalfLanes fused(double a, const HalfLanes& b, const HalfLanes& c) {
 #ifdef __FMA__
   return _mm256_fmadd_pd(a - HalfLanes{}, b, c);
 #else
-  HalfLanes result;
+  HalfLanes result{};
   for (int k = 0; k < lane_count / 2; ++k) result[k] = std::fma(a, b[k], c[k]);
   return result;
 #endif
