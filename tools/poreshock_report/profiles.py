@@ -207,7 +207,8 @@ def references(setting, voids):
 
 HEAD = ("quantity", "measured", "+-", "solid", "error", "snow-plow", "error", "P-alpha", "error")
 QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e9, ".4f"),
-              ("momentum flux [GPa]", 1e9, ".4f"), ("P at the wall [GPa]", 1e9, ".4f"), ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
+              ("momentum flux [GPa]", 1e9, ".4f"), ("P at the wall [GPa]", 1e9, ".4f"),
+              ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
               ("T + fluctuation / c_v [K]", 1.0, ".1f"))
 
 
@@ -245,8 +246,8 @@ def compare(folder):
     measured = (fit.slope + setting.velocity, state["velocity"], state["stress"], state["momentum_flux"],
                 wall_stress(folder, scene, profiles, fit), state["density"], state["temperature"],
                 state["temperature"] + state["fluctuation"] / cv)
-    errors = (fit.error, spread["velocity"], spread["stress"], spread["momentum_flux"], numpy.nan, spread["density"], spread["temperature"],
-              numpy.nan)
+    errors = (fit.error, spread["velocity"], spread["stress"], spread["momentum_flux"], numpy.nan, spread["density"],
+              spread["temperature"], numpy.nan)
     curves, rows = references(setting, voids), []
     for i, (name, unit, digits) in enumerate(QUANTITIES):
         if not numpy.isfinite(measured[i]):

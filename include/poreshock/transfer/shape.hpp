@@ -21,22 +21,10 @@ struct AxisLanes {
   Lanes value, slope, offset;
 };
 
-/// The node of an axis (0 ... 3 above the base) that each lane stands for: along a line of nodes,
-/// or across pairs of such lines.
-struct AlongLine {
-  static constexpr int node(int lane) { return lane % 4; }
-};
-template <int First>
-struct AcrossLines {
-  static constexpr int node(int lane) { return First + lane / 4; }
-};
-
-/// get(node) in every lane.
-template <class Pattern, class Get>
+/// get(node) in every lane: the four nodes of a line of an axis, 0 ... 3 above the base, twice.
+template <class Get>
 constexpr Lanes by_node(Get&& get) {
-  return Lanes{get(Pattern::node(0)), get(Pattern::node(1)), get(Pattern::node(2)),
-               get(Pattern::node(3)), get(Pattern::node(4)), get(Pattern::node(5)),
-               get(Pattern::node(6)), get(Pattern::node(7))};
+  return Lanes{get(0), get(1), get(2), get(3), get(0), get(1), get(2), get(3)};
 }
 
 /// A weight as a polynomial: constant + u^2 (square + cube u) with u = origin + sign f.
@@ -45,28 +33,28 @@ struct WeightPolynomial {
 };
 
 /// Weights of a B-spline at f: its lanes may hold the coordinates of different axes.
-template <class Spline, class Pattern>
+template <class Spline>
 inline AxisLanes spline_lanes(const Lanes& f) {
   constexpr auto& node = Spline::polynomial;
-  constexpr Lanes origin = by_node<Pattern>([](int n) { return node[n].origin; });
-  constexpr Lanes sign = by_node<Pattern>([](int n) { return node[n].sign; });
-  constexpr Lanes constant = by_node<Pattern>([](int n) { return node[n].constant; });
-  constexpr Lanes square = by_node<Pattern>([](int n) { return node[n].square; });
-  constexpr Lanes cube = by_node<Pattern>([](int n) { return node[n].cube; });
-  constexpr Lanes place = by_node<Pattern>([](int n) { return n - Spline::lowest; });
+  constexpr Lanes origin = by_node([](int n) { return node[n].origin; });
+  constexpr Lanes sign = by_node([](int n) { return node[n].sign; });
+  constexpr Lanes constant = by_node([](int n) { return node[n].constant; });
+  constexpr Lanes square = by_node([](int n) { return node[n].square; });
+  constexpr Lanes cube = by_node([](int n) { return node[n].cube; });
+  constexpr Lanes place = by_node([](int n) { return n - Spline::lowest; });
   const Lanes u = fused(sign, f, origin);
   return {fused(u * u, fused(cube, u, square), constant),
           u * fused((3.0 * sign) * cube, u, (2.0 * sign) * square), place - f};
 }
 
-/// Weights of a hat in the lanes of a pattern.
-template <class Pattern, int Width>
+/// Weights of a hat.
+template <int Width>
 inline AxisLanes hat_lanes(const std::array<double, Width>& value,
                            const std::array<double, Width>& slope, double f) {
   const auto of = [](const auto& numbers) {
-    return by_node<Pattern>([&](int n) { return n < Width ? numbers[n] : 0.0; });
+    return by_node([&](int n) { return n < Width ? numbers[n] : 0.0; });
   };
-  return {of(value), of(slope), by_node<Pattern>([&](int n) { return n - f; })};
+  return {of(value), of(slope), by_node([&](int n) { return n - f; })};
 }
 
 /// Hat function: 2 nodes.
@@ -77,10 +65,7 @@ struct LinearHat {
   static int base(double s) { return static_cast<int>(std::floor(s)) + 1; }
   static double local(double s, int base) { return s - static_cast<double>(base - 1); }  // 0 ... 1
 
-  template <class Pattern>
-  AxisLanes lanes(double f) const {
-    return hat_lanes<Pattern, 2>({1.0 - f, f}, {-1.0, 1.0}, f);
-  }
+  AxisLanes lanes(double f) const { return hat_lanes<2>({1.0 - f, f}, {-1.0, 1.0}, f); }
 };
 
 /// Uniform GIMP: the hat averaged over the particle's edge at the start (Bardenhagen & Kober, CMES
@@ -93,7 +78,6 @@ struct UniformGimp {
   static int base(double s) { return static_cast<int>(std::floor(s - 0.5)) + 1; }
   static double local(double s, int base) { return s - static_cast<double>(base - 1); }
 
-  template <class Pattern>
   AxisLanes lanes(double f) const {
     const double l = half_length;
     const double b = f - 1.0;  // from the middle node, -0.5 ... 0.5
@@ -107,7 +91,7 @@ struct UniformGimp {
     const double left = outer(-b), right = outer(b);
     const bool in_left = -b >= l, in_right = b >= l;
     const double quarter = 1.0 / (4.0 * l), half = 1.0 / (2.0 * l);
-    return hat_lanes<Pattern, 3>(
+    return hat_lanes<3>(
         {in_left ? -b : quarter * (left * left), middle, in_right ? b : quarter * (right * right)},
         {in_left ? -1.0 : -half * left, slope, in_right ? 1.0 : half * right}, f);
   }
@@ -125,10 +109,7 @@ struct QuadraticSpline {
   static double local(double s, int base) { return s - static_cast<double>(base - 1); }  // .5...1.5
   static constexpr double lowest = 0.0;  ///< place of the base node, where f is 0
 
-  template <class Pattern>
-  AxisLanes lanes(double f) const {
-    return spline_lanes<QuadraticSpline, Pattern>(f - Lanes{});
-  }
+  AxisLanes lanes(double f) const { return spline_lanes<QuadraticSpline>(f - Lanes{}); }
 };
 
 /// Cubic B-spline: 4 nodes, sum of N (x_i - x)^2 = cell^2 / 3.
@@ -145,10 +126,7 @@ struct CubicSpline {
   static double local(double s, int base) { return s - static_cast<double>(base); }  // 0 ... 1
   static constexpr double lowest = 1.0;  ///< the base node lies one cell below f = 0
 
-  template <class Pattern>
-  AxisLanes lanes(double f) const {
-    return spline_lanes<CubicSpline, Pattern>(f - Lanes{});
-  }
+  AxisLanes lanes(double f) const { return spline_lanes<CubicSpline>(f - Lanes{}); }
 };
 
 /// B-splines: the shapes that APIC and PIC are made for.
@@ -195,7 +173,7 @@ struct AxisWeights {
 /// Weights of the stencil with this base at s.
 template <class Spline>
 inline AxisWeights<Spline::width> axis_weights(const Spline& spline, double s, int base) {
-  const AxisLanes lanes = spline.template lanes<AlongLine>(Spline::local(s, base));
+  const AxisLanes lanes = spline.lanes(Spline::local(s, base));
   AxisWeights<Spline::width> w;
   for (int n = 0; n < Spline::width; ++n) {
     w.value[n] = unscaled<1, Spline>(lanes.value[n]);
@@ -208,7 +186,7 @@ inline AxisWeights<Spline::width> axis_weights(const Spline& spline, double s, i
 /// Weights of two axes along their lines: the first in the low half, the second in the high one.
 template <class Spline>
 inline AxisLanes weights_of_two(const Spline& spline, double f, double g) {
-  const AxisLanes a = spline.template lanes<AlongLine>(f), b = spline.template lanes<AlongLine>(g);
+  const AxisLanes a = spline.lanes(f), b = spline.lanes(g);
   return {join(low_half(a.value), high_half(b.value)), join(low_half(a.slope), high_half(b.slope)),
           join(low_half(a.offset), high_half(b.offset))};
 }
@@ -222,7 +200,7 @@ inline bool projects(VelocityTransfer velocity) {
 template <class Spline>
 requires is_spline<Spline>
 inline AxisLanes weights_of_two(const Spline&, double f, double g) {
-  return spline_lanes<Spline, AlongLine>(join(f - HalfLanes{}, g - HalfLanes{}));
+  return spline_lanes<Spline>(join(f - HalfLanes{}, g - HalfLanes{}));
 }
 
 /// Calls run(shape function) with the one the scene asks for: the run-time choice becomes a type.
