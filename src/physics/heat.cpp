@@ -10,11 +10,6 @@ namespace poreshock {
 
 namespace {
 
-/// Upper bounds of the sum over the nodes of (dN/dx)^2/N along one axis, per cell^2: exactly 6 at
-/// the edge of a stencil cell for the quadratic spline, 3.137 for the cubic one.
-constexpr double quadratic_spread = 6.0;
-constexpr double cubic_spread = 3.14;
-
 /// Calls visit(n, N, grad N) for all nodes of a stencil; gradients are per cell.
 template <int Dim, class Spline, class Visit>
 inline void for_each_weight(const Stencil<Dim, Spline>& s, Visit&& visit) {
@@ -172,7 +167,8 @@ double conduction_limit(const std::vector<Material>& materials, ShapeFunction sh
     diffusivity = std::max(diffusivity, m.conductivity / (m.density * m.cv));
   }
   if (!(diffusivity > 0.0)) return std::numeric_limits<double>::infinity();
-  const double spread = shape == ShapeFunction::cubic ? cubic_spread : quadratic_spread;
+  const double spread =
+      shape == ShapeFunction::cubic ? CubicSpline::stiffness : QuadraticSpline::stiffness;
   return cell * cell / (dimension * spread * diffusivity);
 }
 

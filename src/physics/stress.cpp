@@ -81,9 +81,11 @@ template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
   m.strength = material.strength;
   m.plastic_heat = material.plastic_heat;
   m.spall = material.spall;
+  const double lone = lone_rate<Dim>(settings, m);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    update_particle<Dim, How, Spall, Conserving, Averaging>(m, settings, dt, c, k, k, results);
+    update_particle<Dim, How, Spall, Conserving, Averaging>(m, settings, dt, lone, c, k, k,
+                                                            results);
   }
   reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }

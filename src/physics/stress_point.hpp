@@ -35,9 +35,23 @@ struct ViscousStep {
   double pressure, limit;
 };
 
-inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double cfl, double density,
-                                double sound_speed, double dilatation, double strain_rate,
-                                double speed) {
+/// What a particle without neighbours bounds the step to, as sound speeds per cell. Alone it moves
+/// nodes that are as light as their weight, so all of it swings, at omega^2 = Dim stiffness (K +
+/// G/3 or, in 3-D, K)/rho per cell^2, and APIC keeps that motion: a step of 2/omega (sqrt(1 +
+/// zeta^2) - zeta) is stable, zeta the damping of the linear viscosity. Within material it is
+/// stiffer.
+template <int Dim>
+inline double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& m) {
+  const double bulk = m.eos.bulk, shear = m.strength.shear;
+  const double swinging = bulk + (Dim == 2 ? shear / 3.0 : 0.0);
+  const double omega = std::sqrt(Dim * settings.stiffness * swinging / (bulk + 4.0 / 3.0 * shear));
+  const double damping = 0.5 * omega * settings.viscosity.linear;
+  return 0.5 * omega * (std::sqrt(1.0 + damping * damping) + damping);
+}
+
+inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double cfl, double lone,
+                                double density, double sound_speed, double dilatation,
+                                double strain_rate, double speed) {
   const double closing = dilatation < 0.0 ? -(cell * dilatation) : 0.0;
   const double linear = viscosity.linear * sound_speed;
   const double pressure = density * (viscosity.quadratic * (closing * closing) + linear * closing);
@@ -46,8 +60,10 @@ inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double 
   // What divides is the same for all particles of a loop.
   const double wave =
       (speed + shock + std::sqrt(shock * shock + sound_speed * sound_speed)) * (1.0 / (cfl * cell));
+  const double alone = (speed + lone * sound_speed) * (1.0 / cell);
   const double strain = strain_rate * (1.0 / largest_strain_increment);
-  return {pressure, 1.0 / (wave > strain ? wave : strain)};
+  const double rate = wave > alone ? wave : alone;
+  return {pressure, 1.0 / (rate > strain ? rate : strain)};
 }
 
 /// Columns of the particles and of the step as raw pointers, for the vectorised loop; null where a
@@ -197,7 +213,7 @@ inline void release(const MieGruneisen& law, bool fails, ReturnMapping<Dim>& map
 /// One particle, load - call - store.
 template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
 inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
-                            const Columns<Dim>& c, std::size_t i, std::size_t local,
+                            double lone, const Columns<Dim>& c, std::size_t i, std::size_t local,
                             BlockResults& results) {
   constexpr bool kinematic = How == Yielding::kinematic;
   constexpr int size = symmetric_size<Dim>;
@@ -253,7 +269,7 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;
   const double sound_speed = std::sqrt(c2 + 4.0 / 3.0 * m.strength.shear * volume);
   const ViscousStep next =
-      viscous_step(settings.viscosity, settings.cell, settings.cfl, density, sound_speed,
+      viscous_step(settings.viscosity, settings.cell, settings.cfl, lone, density, sound_speed,
                    dilatation_end, motion.strain_rate, motion.speed);
 
   for (int k = 0; k < size; ++k) c.deviator[k][i] = mapped.deviator[k];

@@ -49,6 +49,11 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.averaging = scene.transfer.averaging > 0.0;
   sim.stress_settings.cell = scene.domain.cell;
   sim.stress_settings.cfl = scene.time.cfl;
+  if (sim.particles.options.affine) {
+    with_shape(scene.transfer, [&]<class Spline>(const Spline&) {
+      if constexpr (is_spline<Spline>) sim.stress_settings.stiffness = Spline::stiffness;
+    });
+  }
   sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
   sim.particles.options.failed = can_fail(scene);

@@ -37,8 +37,8 @@ class RefusedScenes(ProgramTest):
                          "allowed a number >= 0 and < 0.5", text)
 
     def test_override_out_of_range(self):
-        self.refuse_text("--set time.cfl=0.95: time.cfl: found 0.95, allowed a number > 0 and <= 0.9", POROUS,
-                         "--set", "time.cfl=0.95")
+        self.refuse_text("--set time.cfl=1.6: time.cfl: found 1.6, allowed a number > 0 and <= 1.5", POROUS,
+                         "--set", "time.cfl=1.6")
 
     def test_several_problems_make_one_report_in_the_order_of_the_file(self):
         text = (POROUS.replace("cell = 10e-6", "cell = -1").replace("low = \"wall\"", "low = \"wal\"")

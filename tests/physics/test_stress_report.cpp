@@ -136,6 +136,37 @@ TEST(TimeStep, AtRestAndMoving) {
   EXPECT_NEAR(report.dt_limit, 0.4 * cell / c, 1e-15 * cell / c);
 }
 
+// Alone a particle swings at omega^2 = Dim stiffness (K + G/3 in the plane, K in space)/rho, damped
+// by the linear viscosity, and its step is that of leapfrog with the damping of the step before.
+template <int Dim>
+double lone_step(double stiffness, double linear) {
+  StressSettings<Dim> settings = settings_of<Dim>(Thermal::conserving);
+  settings.cfl = 1.5;
+  settings.stiffness = stiffness;
+  settings.viscosity.linear = linear;
+  Points<Dim> point = at_rest<Dim>(aluminium);
+  StressReport report;
+  initialise_stress<Dim>(materials, settings, point.particles, report);
+  return report.dt_limit;
+}
+
+TEST(TimeStep, OfAParticleAlone) {
+  const double K = solid.bulk(), G = solid.shear;
+  const auto expected = [](double omega2, double linear, double c) {
+    const double omega = std::sqrt(omega2 / 2700.0) / cell;
+    const double zeta = 0.5 * linear * omega * cell / c;
+    return 2.0 / omega * (std::sqrt(1.0 + zeta * zeta) - zeta);
+  };
+  const double c = std::sqrt((K + 4.0 / 3.0 * G) / 2700.0);
+  for (const double linear : {0.0, 0.6}) {
+    const double plane = expected(2.0 * 3.14 * (K + G / 3.0), linear, c);
+    const double space = expected(3.0 * 6.0 * K, linear, c);
+    EXPECT_NEAR(lone_step<2>(3.14, linear), plane, 1e-13 * plane);
+    EXPECT_NEAR(lone_step<3>(6.0, linear), space, 1e-13 * space);
+  }
+  EXPECT_NEAR(lone_step<2>(0.0, 0.6), 1.5 * cell / c, 1e-13 * cell / c);
+}
+
 TEST(TimeStep, ViscosityAndStrain) {
   StressSettings<2> settings = settings_of<2>(Thermal::conserving);
   Points<2> point = at_rest<2>(aluminium);

@@ -160,6 +160,9 @@ TEST(Contradictions, SchemesThatCannotWork) {
   EXPECT_EQ(problems(small_scene(), {"transfer.velocity=fmpm", "transfer.order=4", "time.cfl=0.6"}),
             "--set time.cfl=0.6: time.cfl: found 0.6, allowed up to 0.5 with transfer.velocity = "
             "\"fmpm\" of order 4");
+  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "time.cfl=1"}),
+            "--set time.cfl=1: time.cfl: found 1, allowed up to 0.9 unless transfer.velocity = "
+            "\"apic\"");
 }
 
 TEST(Contradictions, Beat) {

@@ -57,8 +57,8 @@ TEST(Messages, WrongTypes) {
 }
 
 TEST(Messages, OutOfRange) {
-  EXPECT_EQ(problems(small_scene("cfl = 1\n")),
-            "s.toml:18:7: time.cfl: found 1, allowed a number > 0 and <= 0.9");
+  EXPECT_EQ(problems(small_scene("cfl = 2\n")),
+            "s.toml:18:7: time.cfl: found 2, allowed a number > 0 and <= 1.5");
   EXPECT_EQ(problems(small_scene("[loading]\nvelocity = -1100.5\n")),
             "s.toml:19:12: loading.velocity: found -1100.5, allowed a number >= 0 (m/s)");
   EXPECT_EQ(problems(small_scene("[viscosity]\nlinear = nan\n")),
@@ -154,7 +154,7 @@ TEST(Messages, SeveralProblemsInTheOrderOfTheFile) {
             "s.toml:3:15: domain.size: found 0, allowed a number > 0 (m)\n"
             "s.toml:4:1: domain.cel: unknown key, allowed size, cell, periodic, did you mean "
             "\"cell\"?\n"
-            "s.toml:19:7: time.cfl: found 0, allowed a number > 0 and <= 0.9\n"
+            "s.toml:19:7: time.cfl: found 0, allowed a number > 0 and <= 1.5\n"
             "s.toml:21:12: output.snapshot: found 7e-09 s, allowed 0 or whole multiples of "
             "output.beat = 5e-09 s\n"
             "--set time.end=-1: time.end: found -1, allowed a number > 0 (s)");

@@ -72,6 +72,23 @@ TYPED_TEST(Shape, SumsToOneAndPlacesTheParticle) {
   }
 }
 
+TYPED_TEST(Shape, StiffnessIsTheMostOfAllPlaces) {
+  if constexpr (is_spline<TypeParam>) {
+    double most = 0.0;
+    for (int k = 0; k <= 1000; ++k) {
+      const double s = 7.0 + k / 1000.0;
+      const auto w = axis_weights(TypeParam{}, s, TypeParam::base(s));
+      double sum = 0.0;
+      for (int i = 0; i < TypeParam::width; ++i) {
+        if (w.value[i] > 0.0) sum += w.slope[i] * w.slope[i] / w.value[i];
+      }
+      most = std::max(most, sum);
+    }
+    EXPECT_LE(most, TypeParam::stiffness * (1.0 + 1e-12));
+    EXPECT_GT(most, 0.995 * TypeParam::stiffness);
+  }
+}
+
 TYPED_TEST(Shape, IsThatOfTheTextbook) {
   const GridShape shape = named_shape<TypeParam>();
   for (const double s : sample_points()) {

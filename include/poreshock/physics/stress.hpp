@@ -20,6 +20,7 @@ struct StressSettings {
   bool averaging = false;
   double cell = 0.0;  ///< m, length of the artificial viscosity
   double cfl = 0.5;
+  double stiffness = 0.0;  ///< of the shape function, where a lone particle bounds the step; or 0
   Vector<Dim> grid_velocity = Vector<Dim>::Zero();
   double inverse_energy_quantum = 1.0;
 };

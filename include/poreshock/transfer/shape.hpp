@@ -102,6 +102,7 @@ struct QuadraticSpline {
   static constexpr int width = 3;
   static constexpr double scale = 2.0;
   static constexpr double inverse_inertia = 4.0;
+  static constexpr double stiffness = 6.0;  ///< most that the nodes' slope^2 / weight add up to
   static constexpr std::array<WeightPolynomial, 4> polynomial = {
       {{1.5, -1.0, 0.0, 1.0, 0.0}, {-1.0, 1.0, 1.5, -2.0, 0.0}, {-0.5, 1.0, 0.0, 1.0, 0.0}, {}}};
 
@@ -117,6 +118,7 @@ struct CubicSpline {
   static constexpr int width = 4;
   static constexpr double scale = 6.0;
   static constexpr double inverse_inertia = 3.0;
+  static constexpr double stiffness = 3.14;  ///< most that the nodes' slope^2 / weight add up to
   static constexpr std::array<WeightPolynomial, 4> polynomial = {{{1.0, -1.0, 0.0, 0.0, 1.0},
                                                                   {0.0, 1.0, 4.0, -6.0, 3.0},
                                                                   {1.0, -1.0, 4.0, -6.0, 3.0},
