@@ -26,13 +26,24 @@ std::string gigabytes(double bytes) {
   return short_number(bytes * 1e-9) + " GB";
 }
 
-/// Typical step of the motion: the shocked sound speed is about 1.2 times the initial one.
-double mechanical_step(const Scene& scene) {
-  double speed = 0.0;
-  for (const MaterialParameters& m : scene.materials) {
-    speed = std::max(speed, longitudinal_sound_speed(make_material(m)));
+/// Mean step of the motion. Behind a plane shock sound is about 1.2 times as fast as at rest and
+/// the linear viscosity acts: within a tenth up to 1500 m/s. Where voids collapse or bodies meet,
+/// hotter and faster spots make 1.4 to 1.8 times as many steps.
+template <int Dim>
+double mechanical_step(const Simulation<Dim>& sim) {
+  constexpr double shocked = 1.2, rough = 1.6;
+  const Scene& scene = sim.scene;
+  double rate = 0.0;
+  for (const Material& material : sim.materials) {
+    const double c = shocked * longitudinal_sound_speed(material);
+    const double Q = scene.viscosity.linear * c;
+    const double wave = (scene.loading.velocity + Q + std::hypot(Q, c)) / scene.time.cfl;
+    const double lone = lone_rate<Dim>(sim.stress_settings, std::get<J2MieGruneisen>(material));
+    rate = std::max({rate, wave, scene.loading.velocity + lone * c});
   }
-  return scene.time.cfl * scene.domain.cell / (1.2 * speed + scene.loading.velocity);
+  const bool plane =
+      scene.sample.kind == SampleKind::solid && scene.bodies.empty() && scene.voids.empty();
+  return scene.domain.cell / (rate * (plane ? 1.0 : rough));
 }
 
 /// State, averaged pressure, sort order, cell number and one column in flight while particles are
@@ -138,7 +149,7 @@ RunEstimate estimate_run(const Simulation<Dim>& sim) {
   const Scene& scene = sim.scene;
   const auto particles = static_cast<double>(sim.sample.particles);
   RunEstimate e;
-  e.mechanical_step = mechanical_step(scene);
+  e.mechanical_step = mechanical_step(sim);
   e.conduction_step = sim.conduction_limit;
   e.steps = std::ceil(scene.time.end / std::min(e.mechanical_step, e.conduction_step));
   if (scene.time.max_steps > 0) {

@@ -192,6 +192,15 @@ void update_all(const std::vector<Material>& materials, const StressSettings<Dim
 }  // namespace
 
 template <int Dim>
+double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& material) {
+  const double bulk = material.eos.bulk, shear = material.strength.shear;
+  const double swinging = bulk + (Dim == 2 ? shear / 3.0 : 0.0);
+  const double omega = std::sqrt(Dim * settings.stiffness * swinging / (bulk + 4.0 / 3.0 * shear));
+  const double damping = 0.5 * omega * settings.viscosity.linear;
+  return 0.5 * omega * (std::sqrt(1.0 + damping * damping) + damping);
+}
+
+template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                    const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                    Particles<Dim>& particles, StressReport& report) {
@@ -225,6 +234,8 @@ void initialise_stress(const std::vector<Material>& materials, const StressSetti
   }
 }
 
+template double lone_rate<2>(const StressSettings<2>&, const J2MieGruneisen&);
+template double lone_rate<3>(const StressSettings<3>&, const J2MieGruneisen&);
 template void update_stress<2>(const std::vector<Material>&, const StressSettings<2>&,
                                const StepData<2>&, double, std::span<const std::uint32_t>,
                                Particles<2>&, StressReport&);

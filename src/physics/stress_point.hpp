@@ -35,20 +35,6 @@ struct ViscousStep {
   double pressure, limit;
 };
 
-/// What a particle without neighbours bounds the step to, as sound speeds per cell. Alone it moves
-/// nodes that are as light as their weight, so all of it swings, at omega^2 = Dim stiffness (K +
-/// G/3 or, in 3-D, K)/rho per cell^2, and APIC keeps that motion: a step of 2/omega (sqrt(1 +
-/// zeta^2) - zeta) is stable, zeta the damping of the linear viscosity. Within material it is
-/// stiffer.
-template <int Dim>
-inline double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& m) {
-  const double bulk = m.eos.bulk, shear = m.strength.shear;
-  const double swinging = bulk + (Dim == 2 ? shear / 3.0 : 0.0);
-  const double omega = std::sqrt(Dim * settings.stiffness * swinging / (bulk + 4.0 / 3.0 * shear));
-  const double damping = 0.5 * omega * settings.viscosity.linear;
-  return 0.5 * omega * (std::sqrt(1.0 + damping * damping) + damping);
-}
-
 inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double cfl, double lone,
                                 double density, double sound_speed, double dilatation,
                                 double strain_rate, double speed) {

@@ -1,4 +1,5 @@
 """The commands that run nothing: check, sample, info, and the options that print and end."""
+import math
 import re
 
 import numpy
@@ -62,7 +63,12 @@ class Commands(ProgramTest):
                                r"least gap \S+ m\n")
         self.assertIn("\ncells per void diameter 5.0\n", text)
         self.assertRegex(text, r"\nwarning: A void is only 5\S* cells across; below 16 its collapse is not resolved\.")
-        self.assertRegex(text, r"\ntypical time step       3\.79e-10 s, about 53 steps\n")
+        # Sound is 1.2 times as fast as at rest, the viscosity acts, and voids make 1.6 times as many steps.
+        shear = 69e9 / (2.0 * 1.33)
+        sound = 1.2 * math.sqrt(5350.0**2 + 4.0 / 3.0 * shear / 2700.0)
+        wave = 1500.0 + 0.6 * sound + math.hypot(0.6 * sound, sound)
+        step = 0.35 * 10e-6 / (1.6 * wave)
+        self.assertIn(f"\ntypical time step       {step:.3g} s, about {math.ceil(20e-9 / step)} steps\n", text)
         self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
         self.assertRegex(text, r"\ndisk                    \d+ MB for 3 snapshots, \d+ MB a checkpoint\n")
         self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 4\.0 million particle-steps")

@@ -35,6 +35,14 @@ struct StressReport {
   Int128 viscous_heat = 0;             ///< quanta
 };
 
+/// What a particle without neighbours bounds the step to, as sound speeds per cell; 0 where the
+/// stiffness is. Alone it moves nodes that are as light as their weight, so all of it swings, at
+/// omega^2 = Dim stiffness (K + G/3 or, in 3-D, K)/rho per cell^2, and APIC keeps that motion: a
+/// step of 2/omega (sqrt(1 + zeta^2) - zeta) is stable, zeta the damping of the linear viscosity.
+/// Among neighbours it is less stiff. Not collective.
+template <int Dim>
+double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& material);
+
 /// Advances the state of the particles at `places`, indices into the columns; entry k of the step
 /// data is for places[k]. The report is added to (numerics: incremental polar decomposition, radial
 /// return, energy from the grid's stress power with the stress of the start of the step, so that
