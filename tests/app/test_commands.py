@@ -85,8 +85,8 @@ class Commands(ProgramTest):
 
     def test_check_warns_of_what_costs_too_much_and_names_the_keys(self):
         self.assertEqual(self.warning(), [])
-        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 2\.\d+ days on 1 ranks\. Start it on more, end "
-                         r"it earlier with time\.end, or set domain\.cell to 1\.2\d+e-05 m for one day\.$")
+        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 5\.\d+ days on 1 ranks\. Start it on more, end "
+                         r"it earlier with time\.end, or set domain\.cell to 1\.7\d+e-05 m for one day\.$")
         # A thousand million snapshots of half a megabyte.
         self.assertRegex(*self.warning("time.end=1e-3", "output.beat=1e-12", "output.snapshot=1e-12"),
                          r"^The files of the run need about \S+ GB, 1e\+09 snapshots of \S+ GB among them; this disk has \S+ GB "
