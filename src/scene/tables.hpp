@@ -90,14 +90,12 @@ void visit_contact(Visitor& visitor, Contact& contact) {
 }
 
 template <typename Visitor>
-void visit_time(Visitor& visitor, const Transfer& transfer, TimeControl& time) {
+void visit_time(Visitor& visitor, TimeControl& time) {
   visitor.number("end", time.end, {positive, "s", "of the run; impact is at 0", Need::required});
-  visitor.fallback(time.cfl, usual_cfl(transfer));
-  visitor.number(
-      "cfl", time.cfl,
-      {{.low = 0.0, .high = 1.5, .above_low = true},
-       "",
-       "share of a cell that a wave may cross in a step, by default 1 with apic, else 0.5"});
+  visitor.number("cfl", time.cfl,
+                 {{.low = 0.0, .high = 1.5, .above_low = true},
+                  "",
+                  "share of a cell that a wave may cross in a step; above 0.9 with apic only"});
   integer(visitor, "max_steps", time.max_steps, {not_negative, "", "0 = no limit"});
   visitor.flag("sleep", time.sleep, {"true where rows that no wave has reached only move"});
 }
@@ -204,8 +202,7 @@ void visit_scene(Visitor& visitor, Scene& scene) {
                 [&](auto& inner) { visit_conduction(inner, scene.conduction); });
   visitor.table("contact", {"Contact between grains."},
                 [&](auto& inner) { visit_contact(inner, scene.contact); });
-  visitor.table("time", {"Time."},
-                [&](auto& inner) { visit_time(inner, scene.transfer, scene.time); });
+  visitor.table("time", {"Time."}, [&](auto& inner) { visit_time(inner, scene.time); });
   visitor.table("output", {"What is written and when."},
                 [&](auto& inner) { visit_output(inner, scene); });
   visitor.table("morphology", {"Minkowski functionals while the run goes."},

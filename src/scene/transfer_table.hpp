@@ -40,10 +40,4 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
                  {share, "", "share of the averaged dilatation, by default 1, 0 with hats"});
 }
 
-/// Share of a cell a wave may cross in a step, by default. APIC on splines bears three times this
-/// and loses less at larger steps; hats and FLIP grow noise, and the filter of FMPM overshoots.
-inline double usual_cfl(const Transfer& transfer) {
-  return transfer.velocity == VelocityTransfer::apic ? 1.0 : 0.5;
-}
-
 }  // namespace poreshock::scene_text

@@ -36,7 +36,7 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.sample.height, 2e-4);
   EXPECT_EQ(scene.sample.particles_per_cell, 2);
   EXPECT_EQ(scene.materials[0].T0, 300.0);
-  EXPECT_EQ(scene.time.cfl, 1.0);
+  EXPECT_EQ(scene.time.cfl, 0.5);
   EXPECT_EQ(scene.transfer, (Transfer{.half_length = 0.25}));
   EXPECT_EQ(scene.viscosity, Viscosity{});
   EXPECT_FALSE(scene.conduction.on);
@@ -240,19 +240,6 @@ TEST(Scenes, PaperFigure1) {
   EXPECT_TRUE(coarse == scene);
 }
 
-TEST(TimeStep, IsLargerWithApic) {
-  const auto cfl = [](const std::vector<std::string>& scheme) {
-    return parse_scene(small_scene(), "s.toml", scheme).time.cfl;
-  };
-  EXPECT_EQ(cfl({}), 1.0);
-  EXPECT_EQ(cfl({"transfer.shape=quadratic"}), 1.0);
-  for (const char* velocity : {"pic", "flip", "fmpm"}) {
-    EXPECT_EQ(cfl({std::string("transfer.velocity=") + velocity}), 0.5) << velocity;
-  }
-  EXPECT_EQ(cfl({"transfer.preset=lineage"}), 0.5);
-  EXPECT_EQ(cfl({"transfer.velocity=flip", "time.cfl=0.8"}), 0.8);
-}
-
 TEST(Presets, LineageSetsDefaultsThatKeysOverride) {
   const Transfer plain = parse_scene(small_scene(), "s.toml", {"transfer.preset=lineage"}).transfer;
   EXPECT_EQ(plain.shape, ShapeFunction::gimp);
@@ -306,7 +293,7 @@ TEST(Keys, ListTheTables) {
     EXPECT_EQ(found.size(), 1u) << table << "." << key;
     return found.empty() ? SceneKey{} : found.front();
   };
-  EXPECT_EQ(find("time", "cfl").standard, "");
+  EXPECT_EQ(find("time", "cfl").standard, "0.5");
   EXPECT_EQ(find("time", "cfl").allowed, "a number > 0 and <= 1.5");
   EXPECT_EQ(find("domain", "cell").standard, "required");
   EXPECT_EQ(find("profile", "every").standard, "");

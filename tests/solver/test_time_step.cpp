@@ -44,6 +44,8 @@ double growth(const std::vector<std::string>& scheme) {
 }
 
 TEST(LoneParticle, DoesNotSwingUp) {
+  EXPECT_LT(growth<2>({}), 1.0);
+  EXPECT_LT(growth<3>({}), 1.0);
   for (const char* cfl : {"time.cfl=1", "time.cfl=1.5"}) {
     EXPECT_LT(growth<2>({cfl}), 1.0) << cfl;
     EXPECT_LT(growth<3>({cfl}), 1.0) << cfl;

@@ -145,8 +145,8 @@ struct Contact {
 };
 
 struct TimeControl {
-  double end = 0.0;            ///< s
-  double cfl = 1.0;            ///< derived default: 1 with APIC, else 0.5
+  double end = 0.0;  ///< s
+  double cfl = 0.5;
   std::int64_t max_steps = 0;  ///< 0 = no limit
   bool sleep = true;           ///< rows that no wave has reached only move
   bool operator==(const TimeControl&) const = default;
