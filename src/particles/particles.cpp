@@ -8,7 +8,7 @@ template <int Dim>
 void resize(Particles<Dim>& particles, std::size_t count) {
   for_each_column(particles, [&](std::string_view, int, auto& column) {
     // A vector alone would double its room when a few particles come over from the next slab.
-    if (count > column.capacity()) column.reserve(count + count / 16);
+    if (count > column.capacity()) column.reserve(count + count / 32);
     column.resize(count);
   });
 }

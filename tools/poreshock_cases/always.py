@@ -6,7 +6,6 @@ from poreshock_cases.table import check, limit
 
 DRIFT = 1e-10
 COLDEST = 1.0  # K, where a temperature is set to the floor
-NO_WORK = 1e-12  # J/kg, far below the rounding of any temperature
 
 
 def bad_particles(run):
@@ -19,7 +18,7 @@ def bad_particles(run):
         bad += int(numpy.count_nonzero(~(now["plastic_strain"] >= 0.0) | ~(now["temperature"] > COLDEST)))
         if before is not None and isotropic:
             _, a, b = numpy.intersect1d(before["id"], now["id"], return_indices=True)
-            bad += int(numpy.count_nonzero(~(now["plastic_work"][b] >= before["plastic_work"][a] - NO_WORK)))
+            bad += int(numpy.count_nonzero(~(now["plastic_work"][b] >= before["plastic_work"][a])))
         before = now
     return bad
 
