@@ -24,7 +24,6 @@ struct StressLaw {
   double cell = 0.0;  ///< m
   double cfl = 0.35;
   double spall = std::numeric_limits<double>::infinity();  ///< Pa, tension
-  double lone = 0.0;  ///< sound speeds per cell that a particle without neighbours bears
   /// In place of linear hardening, Pa of plastic strain and rate (1/s).
   std::function<double(double, double)> flow{};
 };
@@ -205,8 +204,7 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
   p.viscous_pressure =
       p.density * (law.quadratic * closing * closing + law.linear * speed * closing);
   const double Q = closing > 0.0 ? law.linear * speed + law.quadratic * closing : 0.0;
-  const double wave = std::min(law.cfl * law.cell / (motion.speed + Q + std::hypot(Q, speed)),
-                               law.cell / (motion.speed + law.lone * speed));
+  const double wave = law.cfl * law.cell / (motion.speed + Q + std::hypot(Q, speed));
   const double largest = motion.gradient.cwiseAbs().maxCoeff();
   report.dt_limit = largest > 0.0 ? std::min(wave, 0.2 / largest) : wave;
   return report;
