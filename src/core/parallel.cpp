@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "poreshock/core/error.hpp"
+#include "poreshock/core/memory.hpp"
 
 namespace poreshock {
 
@@ -14,6 +15,7 @@ Runtime::Runtime(int& argc, char**& argv) {
   // Errors come back as codes and become exceptions with a text, instead of a printed stack.
   check_petsc(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr), "PetscPushErrorHandler");
   check_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
+  return_large_blocks();
 }
 
 Runtime::~Runtime() {

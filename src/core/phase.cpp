@@ -1,14 +1,6 @@
 #include "poreshock/core/phase.hpp"
 
-#include <sys/resource.h>
-
-#include <fstream>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <petsclog.h>
-#include <unistd.h>
 
 #include "poreshock/core/parallel.hpp"
 
@@ -21,25 +13,6 @@ std::string_view phase_name(PhaseName phase) {
       "stress",      "time step", "migrate",           "rebalance", "morphology",
       "profile",     "history",   "snapshot",          "checkpoint"};
   return names[static_cast<std::size_t>(phase)];
-}
-
-std::int64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
-std::int64_t own_memory() {
-  std::ifstream file("/proc/self/statm");
-  std::int64_t size = 0, resident = 0, shared = 0;
-  file >> size >> resident >> shared;
-  return file ? (resident - shared) * sysconf(_SC_PAGESIZE) : 0;
-}
-
-void release_freed_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
 }
 
 double seconds_in(const PhaseTable& table, std::initializer_list<PhaseName> phases) {

@@ -28,6 +28,43 @@ void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
   resize(particles, kept);
 }
 
+/// Which particles of this rank stay or go to each rank, and how many come from each.
+struct Transfer {
+  std::vector<std::uint32_t> staying;
+  std::vector<std::vector<std::uint32_t>> leaving;
+  std::vector<std::int64_t> arriving;
+};
+
+/// Moves one column: first those that stay, then those of rank 0, 1, ... Collective.
+template <class Value>
+void move_column(const Transfer& transfer, std::vector<Value>& column, MPI_Comm communicator) {
+  MPI_Datatype unit = make_unit(sizeof(Value));
+  std::vector<Value> moved(
+      std::accumulate(transfer.arriving.begin(), transfer.arriving.end(), transfer.staying.size()));
+  for (std::size_t k = 0; k < transfer.staying.size(); ++k) moved[k] = column[transfer.staying[k]];
+  std::vector<MPI_Request> requests;
+  std::size_t at = transfer.staying.size();
+  for (std::size_t r = 0; r < transfer.arriving.size(); ++r) {
+    if (transfer.arriving[r] == 0) continue;
+    MPI_Irecv(moved.data() + at, static_cast<int>(transfer.arriving[r]), unit, static_cast<int>(r),
+              30, communicator, &requests.emplace_back());
+    at += static_cast<std::size_t>(transfer.arriving[r]);
+  }
+  std::vector<std::vector<Value>> buffers;
+  for (std::size_t r = 0; r < transfer.leaving.size(); ++r) {
+    if (transfer.leaving[r].empty()) continue;
+    std::vector<Value>& buffer = buffers.emplace_back();
+    buffer.reserve(transfer.leaving[r].size());
+    for (const std::uint32_t p : transfer.leaving[r]) buffer.push_back(column[p]);
+    MPI_Isend(buffer.data(), static_cast<int>(buffer.size()), unit, static_cast<int>(r), 30,
+              communicator, &requests.emplace_back());
+  }
+  check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
+            "MPI_Waitall for particles");
+  MPI_Type_free(&unit);
+  column.swap(moved);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -52,48 +89,26 @@ void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
 template <int Dim>
 void redistribute(const std::vector<int>& destination, Particles<Dim>& particles,
                   MPI_Comm communicator) {
-  const int ranks = size(communicator);
-  const std::size_t bytes = bytes_per_particle(particles);
+  Transfer transfer;
+  transfer.leaving.resize(static_cast<std::size_t>(size(communicator)));
   const int me = rank(communicator);
-  std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(ranks));
-  std::vector<std::uint32_t> holes;
   for (std::size_t p = 0; p < destination.size(); ++p) {
-    if (destination[p] == me) continue;
-    holes.push_back(static_cast<std::uint32_t>(p));
-    if (destination[p] >= 0) leaving[destination[p]].push_back(holes.back());
+    const int to = destination[p];
+    if (to < 0) continue;
+    (to == me ? transfer.staying : transfer.leaving[to]).push_back(static_cast<std::uint32_t>(p));
   }
-  std::vector<std::int64_t> sent, received(static_cast<std::size_t>(ranks));
-  for (const auto& indices : leaving) sent.push_back(static_cast<std::int64_t>(indices.size()));
-  check_mpi(
-      MPI_Alltoall(sent.data(), 1, MPI_INT64_T, received.data(), 1, MPI_INT64_T, communicator),
-      "MPI_Alltoall of particle counts");
-  MPI_Datatype unit = make_unit(bytes);
-  std::vector<std::vector<std::byte>> buffers(static_cast<std::size_t>(ranks));
-  std::vector<std::vector<std::byte>> arrived(static_cast<std::size_t>(ranks));
-  std::vector<MPI_Request> requests;
-  for (int r = 0; r < ranks; ++r) {
-    arrived[r].resize(static_cast<std::size_t>(received[r]) * bytes);
-    if (received[r] == 0) continue;
-    requests.emplace_back();
-    MPI_Irecv(arrived[r].data(), static_cast<int>(received[r]), unit, r, 30, communicator,
-              &requests.back());
+  std::vector<std::int64_t> sent;
+  for (const auto& indices : transfer.leaving) {
+    sent.push_back(static_cast<std::int64_t>(indices.size()));
   }
-  for (int r = 0; r < ranks; ++r) {
-    if (leaving[r].empty()) continue;
-    pack(particles, leaving[r], buffers[r]);
-    requests.emplace_back();
-    MPI_Isend(buffers[r].data(), static_cast<int>(sent[r]), unit, r, 30, communicator,
-              &requests.back());
-  }
-  check_mpi(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE),
-            "MPI_Waitall for particles");
-  MPI_Type_free(&unit);
-  buffers.clear();
-  remove(std::move(holes), particles);
-  for (int r = 0; r < ranks; ++r) {
-    unpack(arrived[r].data(), static_cast<std::size_t>(received[r]), particles);
-    std::vector<std::byte>().swap(arrived[r]);
-  }
+  transfer.arriving.resize(sent.size());
+  check_mpi(MPI_Alltoall(sent.data(), 1, MPI_INT64_T, transfer.arriving.data(), 1, MPI_INT64_T,
+                         communicator),
+            "MPI_Alltoall of particle counts");
+  // One column after the other: whole, the particles of a slab that wakes up would be held thrice.
+  for_each_column(particles, [&](std::string_view, int, auto& column) {
+    move_column(transfer, column, communicator);
+  });
 }
 
 template void redistribute<2>(const std::vector<int>&, Particles<2>&, MPI_Comm);

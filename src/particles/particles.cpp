@@ -1,6 +1,7 @@
 #include "poreshock/particles/particles.hpp"
 
 #include <cstring>
+#include <tuple>
 
 namespace poreshock {
 
@@ -20,8 +21,14 @@ void release_spare(Particles<Dim>& particles) {
 
 template <int Dim>
 void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles) {
+  // One column more per type, which they hand on: a new one each would be new pages each.
+  std::tuple<std::vector<std::int64_t>, std::vector<std::int32_t>, std::vector<double>> spare;
   for_each_column(particles, [&](std::string_view, int, auto& column) {
-    auto sorted = std::remove_reference_t<decltype(column)>(order.size());
+    auto& sorted = std::get<std::remove_reference_t<decltype(column)>>(spare);
+    if (sorted.size() != order.size()) {
+      sorted.reserve(column.capacity());
+      sorted.resize(order.size());
+    }
     for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
     column.swap(sorted);
   });

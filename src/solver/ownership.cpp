@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "poreshock/core/memory.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/particles/exchange.hpp"
@@ -106,7 +107,6 @@ void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
       destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, shape, inverse_cell));
     }
     redistribute(destination, sim.particles, sim.communicator);
-    release_spare(sim.particles);
     release_freed_memory();
   }
   sim.work.lost = 0.0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "poreshock/core/memory.hpp"
 #include "poreshock/core/parallel.hpp"
 
 namespace poreshock {

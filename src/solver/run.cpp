@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "poreshock/core/error.hpp"
+#include "poreshock/core/memory.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/core/stop_signal.hpp"
 #include "poreshock/output/folder.hpp"

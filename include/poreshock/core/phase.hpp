@@ -45,17 +45,6 @@ struct PhaseTable {
   std::array<PetscLogEvent, static_cast<int>(PhaseName::count)> events{};
 };
 
-/// Largest memory this process has held so far, bytes. Not collective.
-std::int64_t peak_memory();
-
-/// Memory this process holds for itself now, bytes, without the code of libraries, which all
-/// processes of a machine share; 0 where the system does not say. Not collective.
-std::int64_t own_memory();
-
-/// Gives freed memory back to the system, where the library can: freed particles of a rebalance
-/// would else stay with the rank that sent them away. Not collective.
-void release_freed_memory();
-
 /// Seconds this rank has spent in some phases together.
 double seconds_in(const PhaseTable& table, std::initializer_list<PhaseName> phases);
 
