@@ -12,8 +12,8 @@ std::int64_t peak_memory();
 /// processes of a machine share; 0 where the system does not say. Not collective.
 std::int64_t own_memory();
 
-/// Gives freed memory back to the system, where the library can: freed particles of a rebalance
-/// would else stay with the rank that sent them away. Not collective.
+/// Gives freed memory back to the system, also what smaller blocks have left in the heap, where the
+/// library can. Not collective.
 void release_freed_memory();
 
 /// From now on blocks above 1 MiB go back to the system once they are freed, where the library can.
