@@ -53,7 +53,6 @@ double bytes_of_a_particle(const Simulation<Dim>& sim) {
   const Transfer& transfer = sim.scene.transfer;
   double columns = 1.0;
   if (transfer.averaging > 0.0) columns += 1.0;
-  if (transfer.velocity == VelocityTransfer::fmpm) columns += Dim + 1.0;
   if (sim.heat) columns += Dim + 1.0;
   return static_cast<double>(bytes_per_particle(sim.particles)) + 8.0 * columns + 8.0;
 }

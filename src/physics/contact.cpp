@@ -19,7 +19,6 @@ struct Pair {
   Vector<Dim> normal = Vector<Dim>::Zero();  ///< from a to b
   double gap = 0.0;                          ///< m, that may still close
   bool rubs = true;                          ///< false where the normal is only a guess
-  bool slips = false;                        ///< friction is used up
   double push = 0.0;                         ///< kg m/s along the normal, on b
   Vector<Dim> rub = Vector<Dim>::Zero();     ///< kg m/s across it, on b
 };
@@ -82,8 +81,7 @@ double relax_pair(double friction, double closing_time, Pair<Dim>& pair,
   Vector<Dim> rub = pair.rub - slip * reduced;
   const double size = std::sqrt(dot<Dim>(rub, rub));
   const double most = friction * push;
-  pair.slips = size > most;
-  if (pair.slips) rub *= most / size;
+  if (size > most) rub *= most / size;
   const Vector<Dim> more = rub - pair.rub;
   add_impulse<Dim>(more, pair, grains);
   pair.rub = rub;
@@ -209,33 +207,9 @@ ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSet
   return report;
 }
 
-template <int Dim>
-int find_ties(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
-              const FaceTable& faces, const Vector<Dim>* normal, NodeTies<Dim>& ties) {
-  ContactReport report;
-  std::array<Pair<Dim>, most_pairs> storage;
-  const int count = find_pairs<Dim>(grains, settings, faces, normal, storage, report);
-  const std::span<Pair<Dim>> pairs(storage.data(), static_cast<std::size_t>(count));
-  std::array<NodeGrain<Dim>, most_grains_at_node> moved;
-  std::copy(grains.begin(), grains.end(), moved.begin());
-  relax_pairs<Dim>(settings, pairs, std::span<NodeGrain<Dim>>(moved.data(), grains.size()));
-  int tied = 0;
-  for (const Pair<Dim>& pair : pairs) {
-    if (!(pair.push > 0.0) || pair.gap > 0.0) continue;
-    const bool rubs = settings.friction > 0.0 && pair.rubs;
-    ties[static_cast<std::size_t>(tied++)] = {pair.a, pair.b, pair.normal, rubs && !pair.slips};
-  }
-  return tied;
-}
-
 template ContactReport resolve_contact<2>(std::span<NodeGrain<2>>, const ContactSettings&,
                                           const FaceTable&, const Vector<2>*);
 template ContactReport resolve_contact<3>(std::span<NodeGrain<3>>, const ContactSettings&,
                                           const FaceTable&, const Vector<3>*);
-
-template int find_ties<2>(std::span<const NodeGrain<2>>, const ContactSettings&, const FaceTable&,
-                          const Vector<2>*, NodeTies<2>&);
-template int find_ties<3>(std::span<const NodeGrain<3>>, const ContactSettings&, const FaceTable&,
-                          const Vector<3>*, NodeTies<3>&);
 
 }  // namespace poreshock

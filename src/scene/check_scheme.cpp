@@ -12,12 +12,10 @@ constexpr double greatest_hat_averaging = 0.5;
 void check_combination(const Transfer& transfer, Report& report) {
   const bool linear = transfer.shape == ShapeFunction::linear;
   const bool spline = !is_hat(transfer.shape);
-  const bool flip = transfer.velocity == VelocityTransfer::flip;
-  const bool filtered = transfer.velocity == VelocityTransfer::fmpm;
-  if (!spline && !flip && !(filtered && !linear)) {
+  if (!spline && transfer.velocity != VelocityTransfer::flip) {
     add_problem("transfer.velocity",
-                std::string("found a transfer that needs B-splines, allowed \"flip\"") +
-                    (linear ? "" : " or \"fmpm\"") + " with transfer.shape = \"" +
+                std::string("found a transfer that needs B-splines, allowed \"flip\" with "
+                            "transfer.shape = \"") +
                     (linear ? "linear" : "gimp") + "\"",
                 report);
   }
@@ -29,38 +27,18 @@ void check_combination(const Transfer& transfer, Report& report) {
                     "unstable when material crosses cells",
                 report);
   }
-  // On B-splines it gains energy on collapsing voids until the step collapses.
-  if (transfer.update == VelocityUpdate::musl && (!flip || spline)) {
-    add_problem("transfer.update",
-                "found \"musl\", allowed \"usl\" unless transfer.velocity = \"flip\" and "
-                "transfer.shape = \"linear\" or \"gimp\"",
-                report);
-  }
-  if (transfer.update == VelocityUpdate::musl && transfer.averaging > 0.0) {
-    add_problem("transfer.update",
-                "found \"musl\", allowed \"usl\" with averaged dilatation: both replace the "
-                "dilatation of the grid",
-                report);
-  }
 }
 
-/// The largest cfl of a scheme: the filter of FMPM overshoots at large steps, the noise of FLIP and
-/// of hats grows.
+/// The largest cfl of a scheme: the noise of FLIP and of hats grows at large steps.
 void check_step(const Scene& scene, Report& report) {
   const Transfer& transfer = scene.transfer;
-  if (!good(report, {"transfer.velocity", "transfer.order", "time.cfl"})) return;
-  if (transfer.velocity == VelocityTransfer::apic) return;
-  double most = 0.9;
-  std::string where = " unless transfer.velocity = \"apic\"";
-  if (transfer.velocity == VelocityTransfer::fmpm) {
-    most = transfer.order <= 2 ? 0.7 : (transfer.order == 3 ? 0.6 : 0.5);
-    where = " with transfer.velocity = \"fmpm\" of order " + std::to_string(transfer.order);
-  }
-  if (scene.time.cfl <= most) return;
-  add_problem(
-      "time.cfl",
-      "found " + plain_number(scene.time.cfl) + ", allowed up to " + plain_number(most) + where,
-      report);
+  if (!good(report, {"transfer.velocity", "time.cfl"})) return;
+  constexpr double most = 0.9;
+  if (transfer.velocity == VelocityTransfer::apic || scene.time.cfl <= most) return;
+  add_problem("time.cfl",
+              "found " + plain_number(scene.time.cfl) + ", allowed up to " + plain_number(most) +
+                  " unless transfer.velocity = \"apic\"",
+              report);
 }
 
 void check_transfer(const Scene& scene, Report& report) {
@@ -72,7 +50,7 @@ void check_transfer(const Scene& scene, Report& report) {
                     " 1/s, allowed 0 unless transfer.velocity = \"flip\"",
                 report);
   }
-  if (!good(report, {"transfer.shape", "transfer.update", "transfer.averaging"})) return;
+  if (!good(report, {"transfer.shape", "transfer.averaging"})) return;
   check_combination(transfer, report);
   check_step(scene, report);
 }
@@ -94,10 +72,6 @@ void check_self_contact(const Scene& scene, Report& report) {
     allowed = "false in 3-D: the sides of a void wall are told apart in the plane only";
   } else if (makes_grains(scene.sample.kind)) {
     allowed = "false with a sample of grains: each grain has one velocity field";
-  } else if (scene.transfer.velocity == VelocityTransfer::fmpm) {
-    allowed = "false with transfer.velocity = \"fmpm\": its filter would weld the walls";
-  } else if (scene.transfer.update == VelocityUpdate::musl) {
-    allowed = "false with transfer.update = \"musl\": contact acts once in a step";
   } else if (scene.contact.normal == ContactNormal::regression) {
     allowed = "false with contact.normal = \"regression\": that parts grains, not sides of one";
   }

@@ -14,13 +14,11 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
                                     {"cubic", ShapeFunction::cubic}};
   const Names<VelocityTransfer> transfers{{"pic", VelocityTransfer::pic},
                                           {"flip", VelocityTransfer::flip},
-                                          {"apic", VelocityTransfer::apic},
-                                          {"fmpm", VelocityTransfer::fmpm}};
-  const Names<VelocityUpdate> updates{{"usl", VelocityUpdate::usl}, {"musl", VelocityUpdate::musl}};
+                                          {"apic", VelocityTransfer::apic}};
   bool lineage = false;
   const Names<bool> presets{{"none", false}, {"lineage", true}};
   choice(visitor, "preset", lineage, presets,
-         {"lineage: gimp, flip, usl, no averaging by default, the common scheme of 2008-2010"});
+         {"lineage: gimp, flip, no averaging by default, the common scheme of 2008-2010"});
   if (lineage) {
     visitor.fallback(transfer.shape, ShapeFunction::gimp);
     visitor.fallback(transfer.velocity, VelocityTransfer::flip);
@@ -31,10 +29,6 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
   const bool hat = is_hat(transfer.shape);
   visitor.number("damping", transfer.damping,
                  {not_negative, "1/s", "of FLIP velocity noise; with flip only"});
-  integer(visitor, "order", transfer.order,
-          {{.low = 2.0, .high = 8.0}, "", "of the filter of fmpm; higher filters less"});
-  choice(visitor, "update", transfer.update, updates,
-         {"density and rotation from the grid velocity, or from the particles' (musl, flip only)"});
   visitor.fallback(transfer.averaging, hat ? 0.0 : 1.0);
   visitor.number("averaging", transfer.averaging,
                  {share, "", "share of the averaged dilatation, by default 1, 0 with hats"});

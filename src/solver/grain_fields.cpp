@@ -164,11 +164,6 @@ void find_grains(Simulation<Dim>& sim) {
         "has one velocity field and none is left for its other side. Set contact.self = false, or "
         "give all bodies the same grain.");
   }
-  if (sim.scene.transfer.update == VelocityUpdate::musl) {
-    throw InputError(
-        "transfer.update: found \"musl\" in a scene of several grains. Allowed is \"usl\": contact "
-        "acts once in a step. Set transfer.update = \"usl\", or give all bodies the same grain.");
-  }
   sim.grain_fields.grains = limits[1] + 1;
   sim.grain_fields.faces.emplace(sim.scene.transfer);
 }
@@ -211,18 +206,6 @@ std::vector<std::int32_t> particle_colours(const Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void find_ties(double dt, Simulation<Dim>& sim) {
-  const Surfaces<Dim> surfaces = find_surfaces(sim);
-  sim.ties = tie_grains<Dim>(surfaces.fields, sim.grain_fields.shared, sim.scene,
-                             contact_settings(dt, sim), *sim.grain_fields.faces, surfaces.points);
-}
-
-template <int Dim>
-void tie_starts(Simulation<Dim>& sim) {
-  tie_momenta<Dim>(contact_fields(sim.grain_fields), sim.ties);
-}
-
-template <int Dim>
 void collide(double dt, Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
   all.summary = {};
@@ -238,7 +221,6 @@ void finish_contact(Simulation<Dim>& sim) {
   const GrainFields& all = sim.grain_fields;
   if (all.fields.empty()) return;
   const std::vector<ContactField> fields = contact_fields(all);
-  settle_tie_heat<Dim>(fields, sim.ties, sim.ledger.nodes);
   settle_contact_heat<Dim>(fields, all.shared, sim.ledger.nodes);
 }
 
@@ -262,10 +244,6 @@ template void find_grains<2>(Simulation<2>&);
 template void find_grains<3>(Simulation<3>&);
 template void split_by_colour<2>(Simulation<2>&);
 template void split_by_colour<3>(Simulation<3>&);
-template void find_ties<2>(double, Simulation<2>&);
-template void find_ties<3>(double, Simulation<3>&);
-template void tie_starts<2>(Simulation<2>&);
-template void tie_starts<3>(Simulation<3>&);
 template void collide<2>(double, Simulation<2>&);
 template void collide<3>(double, Simulation<3>&);
 template void finish_contact<2>(Simulation<2>&);

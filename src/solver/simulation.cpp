@@ -10,10 +10,8 @@
 #include "poreshock/transfer/facing.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
-#include "poreshock/transfer/remap.hpp"
 #include "poreshock/transfer/shape.hpp"
 #include "poreshock/transfer/sweep.hpp"
-#include "poreshock/transfer/velocity_filter.hpp"
 #include "stress_report.hpp"
 
 namespace poreshock {
@@ -21,15 +19,11 @@ namespace poreshock {
 namespace {
 
 /// Calls visit(rows) for chunks of the rows that are awake, so small that what the stress update
-/// takes from the grid stays in the cache. MUSL needs all particles moved before their stress
-/// follows.
+/// takes from the grid stays in the cache.
 template <class Visit>
-void for_each_chunk(const Transfer& transfer, const CellOrder& cells, const SlabGrid& grid,
-                    Visit&& visit) {
+void for_each_chunk(const CellOrder& cells, const SlabGrid& grid, Visit&& visit) {
   constexpr std::uint32_t chunk = 1024;  // particles
   const RowRange awake = awake_rows(cells, grid);
-  // Collective there, so also where nothing is awake.
-  if (transfer.update == VelocityUpdate::musl) return visit(awake);
   const auto place = [&](int row) { return first_place(cells, grid, row); };
   for (RowRange rows = {awake.first, awake.first}; rows.first < awake.last;
        rows.first = rows.last) {
@@ -38,22 +32,6 @@ void for_each_chunk(const Transfer& transfer, const CellOrder& cells, const Slab
     } while (rows.last < awake.last && place(rows.last) - place(rows.first) < chunk);
     visit(rows);
   }
-}
-
-/// MUSL: the velocity that the updated particles give the nodes, under the same walls. Its impulses
-/// move nothing and belong to no ledger.
-template <int Dim>
-void update_from_particles(double dt, Simulation<Dim>& sim) {
-  SlabGrid& grid = *sim.grid;
-  const Vector<Dim>& grid_velocity = sim.stress_settings.grid_velocity;
-  remap_velocity(sim.particles, sim.cells, sim.scene.transfer, grid);
-  grid.exchange();
-  NodeLedger scratch;
-  integrate_momentum<Dim>(Vector<Dim>::Zero(), false, 0.0, grid, scratch);
-  apply_boundaries<Dim>(sim.scene.boundary, grid_velocity, grid, scratch);
-  grid.fill_periodic_images();
-  gather_remapped(grid, sim.cells, sim.scene.transfer, grid_velocity, dt, sim.particles,
-                  sim.step_data);
 }
 
 /// Nodes to particles and stress of the particles of some rows in one velocity field.
@@ -67,10 +45,6 @@ void update_particles(const CellOrder& cells, RowRange rows, const SlabGrid& gri
     grid_to_particles(grid, averages, cells, rows, transfer, sim.stress_settings.grid_velocity, dt,
                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
                       sim.ledger.transfer_heat);
-  }
-  if (transfer.update == VelocityUpdate::musl) {
-    const Phase phase(sim.phases, PhaseName::remap);
-    update_from_particles(dt, sim);
   }
   const Phase phase(sim.phases, PhaseName::stress);
   const std::uint32_t first = first_place(cells, grid, rows.first);
@@ -121,34 +95,6 @@ void sum_particles(Simulation<Dim>& sim) {
   });
 }
 
-/// FMPM: contact of the velocities before the filter tells what grains its increments may not part
-/// or push into each other. Its impulses move nothing and belong to no ledger.
-template <int Dim>
-void tie_filter(double dt, Simulation<Dim>& sim) {
-  sim.ties = {};
-  if (sim.grain_fields.fields.empty()) return;
-  sum_particles(sim);
-  const Phase phase(sim.phases, PhaseName::contact);
-  NodeLedger scratch;
-  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
-    integrate_momentum<Dim>(sim.body_force, false, dt, grid, scratch);
-  });
-  find_ties(dt, sim);
-}
-
-/// FMPM: filters the velocities of the particles of all fields.
-template <int Dim>
-void filter_velocities(Simulation<Dim>& sim) {
-  const Phase phase(sim.phases, PhaseName::filter);
-  std::vector<FilterField> fields;
-  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid*) {
-    fields.push_back({&cells, &grid});
-  });
-  filter_velocity<Dim>(fields, sim.ties, sim.scene.transfer,
-                       sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
-                       sim.ledger.transfer_heat);
-}
-
 /// Momentum, contact and boundaries on the nodes of all velocity fields.
 template <int Dim>
 void update_grids(double dt, Simulation<Dim>& sim) {
@@ -157,7 +103,6 @@ void update_grids(double dt, Simulation<Dim>& sim) {
   {
     const Phase phase(sim.phases, PhaseName::grid_update);
     join_fields(sim);
-    tie_starts(sim);
     for_each_side(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
       integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, grid, ledger);
     });
@@ -187,10 +132,6 @@ void advance(Simulation<Dim>& sim, double dt) {
   sort_particles(sim);
   sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
   split_by_colour(sim);
-  if (transfer.velocity == VelocityTransfer::fmpm) {
-    tie_filter(dt, sim);
-    filter_velocities(sim);
-  }
   if (sim.heat) {
     // At the start of the step density, energy and position belong together and the sort holds; the
     // stress update at its end then sees the heat in the energy that pressure follows from.
@@ -204,7 +145,7 @@ void advance(Simulation<Dim>& sim, double dt) {
   if (averaging) average_dilatations(sim);
   StressReport report;
   for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
-    for_each_chunk(transfer, cells, grid, [&](RowRange rows) {
+    for_each_chunk(cells, grid, [&](RowRange rows) {
       update_particles(cells, rows, grid, averages, dt, sim, report);
     });
   });

@@ -139,7 +139,7 @@ inline Lanes update_velocity(const GroupMoments<Dim>& m, double cell, double dam
 }
 
 /// Moves the particles of a group; returns the heat of the filter, quanta.
-template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
+template <int Dim, VelocityTransfer Velocity, class Spline>
 inline Int128 move_group(const GroupMoments<Dim>& m, double cell, const Motion<Dim>& motion,
                          const Group& group, Particles<Dim>& particles, StepData<Dim>& step) {
   using Lane = MotionLane<Dim>;
@@ -147,12 +147,8 @@ inline Int128 move_group(const GroupMoments<Dim>& m, double cell, const Motion<D
       update_velocity<Dim, Velocity, Spline>(m, cell, motion.damped, group, particles);
   for (int a = 0; a < Dim; ++a) {
     const Lanes v = m.value[Lane::end_velocity + a];
-    if constexpr (Update == VelocityUpdate::musl) {
-      store(v, group, step.transport[a]);
-    } else {
-      const Lanes x = load(particles.position[a], group);
-      store(x + motion.dt * (v - motion.grid_velocity[a]), group, particles.position[a]);
-    }
+    const Lanes x = load(particles.position[a], group);
+    store(x + motion.dt * (v - motion.grid_velocity[a]), group, particles.position[a]);
   }
   store_gradients<Dim>(m, motion, group, step);
   store_ordered(m.value[Lane::heat] + lost, group, step.heat);
@@ -163,7 +159,7 @@ inline Int128 move_group(const GroupMoments<Dim>& m, double cell, const Motion<D
 }
 
 // Flattened: a call per value would cost more than the arithmetic.
-template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Spline>
+template <int Dim, VelocityTransfer Velocity, class Spline>
 [[gnu::flatten]] void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
                             RowRange rows, const Motion<Dim>& motion, Particles<Dim>& particles,
                             StepData<Dim>& step, Int128& filter_heat) {
@@ -182,8 +178,7 @@ template <int Dim, VelocityTransfer Velocity, VelocityUpdate Update, class Splin
     }
     auto m = group_moments<Dim, Spline, affine>(pending.data(), inverse_cell);
     take_averages<Dim, Spline>(averages, m);
-    filter_heat +=
-        move_group<Dim, Velocity, Update, Spline>(m, cell, motion, group, particles, step);
+    filter_heat += move_group<Dim, Velocity, Spline>(m, cell, motion, group, particles, step);
     group.place += group.count;
     group.count = 0;
   };
@@ -244,21 +239,16 @@ void grid_to_particles(const SlabGrid& grid, const SlabGrid* averages, const Cel
   with_shape(transfer, [&]<class Spline>(const Spline& spline) {
     if constexpr (is_spline<Spline>) {
       if (transfer.velocity == VelocityTransfer::apic) {
-        return sweep<Dim, VelocityTransfer::apic, VelocityUpdate::usl>(
-            spline, grid, cells, rows, motion, particles, step, filter_heat);
+        return sweep<Dim, VelocityTransfer::apic>(spline, grid, cells, rows, motion, particles,
+                                                  step, filter_heat);
       }
       if (transfer.velocity == VelocityTransfer::pic) {
-        return sweep<Dim, VelocityTransfer::pic, VelocityUpdate::usl>(
-            spline, grid, cells, rows, motion, particles, step, filter_heat);
+        return sweep<Dim, VelocityTransfer::pic>(spline, grid, cells, rows, motion, particles, step,
+                                                 filter_heat);
       }
-    } else if (transfer.update == VelocityUpdate::musl) {
-      for (auto& column : step.transport) column.resize(particles.size());
-      return sweep<Dim, VelocityTransfer::flip, VelocityUpdate::musl>(
-          spline, grid, cells, rows, motion, particles, step, filter_heat);
     }
-    // FMPM has filtered the velocities before the step; the step itself is FLIP's.
-    sweep<Dim, VelocityTransfer::flip, VelocityUpdate::usl>(spline, grid, cells, rows, motion,
-                                                            particles, step, filter_heat);
+    sweep<Dim, VelocityTransfer::flip>(spline, grid, cells, rows, motion, particles, step,
+                                       filter_heat);
   });
 }
 

@@ -63,22 +63,6 @@ inline Lanes averages_at(const PointWeights<3>& w, const GridShape& shape) {
   return sum;
 }
 
-/// Interpolation of all lanes of the nodes to a particle.
-template <int Dim, class Spline>
-inline Lanes interpolate(const PointWeights<Dim>& w, const Lanes* nodes) {
-  constexpr int width = Spline::width;
-  Lanes sum{};
-  for (int line = 0; line < stencil_nodes<Dim, Spline> / width; ++line) {
-    const Lanes* const first = nodes + line * width;
-    Lanes value = w.value[0] * first[0];
-    for (int i = 1; i < width; ++i) value = fused(w.value[i], first[i], value);
-    double across = w.value[4 + line % width];
-    if constexpr (Dim == 3) across *= w.value[8 + line / width];
-    sum = fused(across, value, sum);
-  }
-  return unscaled<Dim, Spline>(sum);
-}
-
 /// Moments in one plane of nodes.
 template <int Dim, class Spline, bool Affine>
 inline Moments<Dim, 2> plane_moments(const PointWeights<Dim>& w, const Lanes* nodes) {

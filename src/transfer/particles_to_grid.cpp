@@ -9,7 +9,7 @@ namespace poreshock {
 
 namespace {
 
-/// Which kinetic energy of its particles a node sums: FLIP and FMPM lose none on the way, PIC that
+/// Which kinetic energy of its particles a node sums: FLIP loses none on the way, PIC that
 /// of v_p, APIC that of v_p + C_p d.
 enum class KineticEnergy { none, plain, affine };
 

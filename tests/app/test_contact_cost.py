@@ -8,8 +8,8 @@ from pathlib import Path
 from program import PATIENCE, PROGRAM, ROOT, ProgramTest
 
 # Source files of which everything is there for contact.
-CONTACT_FILES = ["contact", "grain_contact", "grain_ties", "self_contact", "gap", "parting_plane", "tied_nodes",
-                 "node_points", "facing", "surfaces", "grain_fields", "facing_fields", "grain_colours"]
+CONTACT_FILES = ["contact", "grain_contact", "self_contact", "gap", "parting_plane", "node_points", "facing",
+                 "surfaces", "grain_fields", "facing_fields", "grain_colours"]
 SHARE = 0.005
 STEPS = 6
 

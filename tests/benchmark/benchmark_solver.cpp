@@ -126,8 +126,6 @@ Simulation<2> scheme(std::int64_t number) {
       return stirred("quadratic", "apic", 1.0);
     case 4:
       return stirred("quadratic", "apic", 0.0);
-    case 5:
-      return stirred("cubic", "fmpm", 0.0);
     default:
       return stirred("cubic", "apic", 1.0);
   }

@@ -247,11 +247,9 @@ TEST(Presets, LineageSetsDefaultsThatKeysOverride) {
   EXPECT_EQ(plain.averaging, 0.0);
   EXPECT_EQ(plain.half_length, 0.25);
   const Scene scene =
-      parse_scene(small_scene(), "s.toml",
-                  {"transfer.preset=lineage", "transfer.update=musl", "transfer.shape=linear"});
+      parse_scene(small_scene(), "s.toml", {"transfer.preset=lineage", "transfer.shape=linear"});
   EXPECT_EQ(scene.transfer.shape, ShapeFunction::linear);
   EXPECT_EQ(scene.transfer.velocity, VelocityTransfer::flip);
-  EXPECT_EQ(scene.transfer.update, VelocityUpdate::musl);
   EXPECT_EQ(parse_scene(write_scene(scene), "again"), scene);
 }
 

@@ -42,11 +42,8 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"transfer.velocity=flip", "transfer.damping=1e8"},
                       std::vector<std::string>{"transfer.velocity=flip", "transfer.averaging=0.0"},
                       std::vector<std::string>{"transfer.velocity=pic", "transfer.averaging=0.0"},
-                      std::vector<std::string>{"transfer.velocity=fmpm", "transfer.order=2",
-                                               "transfer.averaging=0.0"},
-                      std::vector<std::string>{"transfer.velocity=fmpm", "transfer.order=3"},
                       std::vector<std::string>{"transfer.preset=lineage"},
-                      std::vector<std::string>{"transfer.shape=gimp", "transfer.velocity=fmpm",
+                      std::vector<std::string>{"transfer.shape=gimp", "transfer.velocity=flip",
                                                "transfer.averaging=0.5"},
                       std::vector<std::string>{"thermal=paper"},
                       std::vector<std::string>{"material.0.kinematic_share=1.0",
@@ -61,14 +58,6 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"conduction.on=true", "material.0.conductivity=2e4",
                                                "thermal=paper", "transfer.shape=quadratic",
                                                "material.0.kinematic_share=0.5"}));
-
-TEST(Conservation, LedgerShowsWhatMuslGains) {
-  // Its stress power is not that of the nodal forces, and the ledger hides nothing of it.
-  const double drift = drift_after<2>(
-      scene_of(porous_text(), {"transfer.preset=lineage", "transfer.update=musl"}), 600);
-  EXPECT_GT(std::abs(drift), 1e-3);
-  EXPECT_LT(std::abs(drift), 0.1);
-}
 
 TEST(Conservation, EnergyClosesIn3D) {
   const std::string text = std::string(R"(

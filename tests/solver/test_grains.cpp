@@ -35,11 +35,6 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"contact.gap=none", "transfer.averaging=0.0"},
                       std::vector<std::string>{"contact.normal=regression"},
                       std::vector<std::string>{"transfer.velocity=flip", "transfer.damping=1e8"},
-                      std::vector<std::string>{"transfer.velocity=fmpm", "transfer.averaging=0.0"},
-                      std::vector<std::string>{"transfer.velocity=fmpm", "transfer.order=2",
-                                               "contact.friction=0.0"},
-                      std::vector<std::string>{"transfer.velocity=fmpm", "contact.friction=1e30",
-                                               "boundary.low={kind='wall', friction=0.4}"},
                       std::vector<std::string>{"thermal=paper", "transfer.shape=quadratic"}));
 
 /// Two boxes, one on the other, that hit a wall; both are grain 0, or the upper one is grain 1.
@@ -121,54 +116,16 @@ TEST(Grains, StickAsOneField) {
   EXPECT_GT(expect_one_field(one, two), 5e9);
 }
 
-/// The upper box falls on the lower one at 500 m/s.
-std::string colliding_text(int upper_grain) {
-  std::string text = stacked_text(upper_grain, 0.0);
-  const std::string loading = "[loading]\nvelocity = 500\n";
-  text.replace(text.find(loading), loading.size(), "velocity = [0.0, -500.0]\n");
-  return text;
-}
-
-// With FMPM the increments of all orders have to keep to the contact as well. Two fields move as
-// one for as long as they press on each other at every node they share: the noise that the filter
-// leaves parts them at the rim in the end, where one field holds tension.
-TEST(Grains, StickAsOneFieldInTheIncrementsOfFmpm) {
-  for (const char* order : {"transfer.order=2", "transfer.order=3", "transfer.order=5"}) {
-    SCOPED_TRACE(order);
-    const std::vector<std::string> scheme = {"transfer.velocity=fmpm", order,
-                                             "transfer.averaging=0.0", "thermal=paper"};
-    Simulation<2> one = start<2>(scene_of(colliding_text(0), scheme), MPI_COMM_SELF);
-    Simulation<2> two = start<2>(scene_of(colliding_text(1), scheme), MPI_COMM_SELF);
-    double pressure = 0.0;
-    int held = 0;
-    for (; held < 50; ++held) {
-      advance_to(held + 1, 0, one);
-      advance_to(held + 1, 0, two);
-      const std::vector<bool>& shared = two.grain_fields.shared;
-      const auto nodes = static_cast<std::size_t>(std::count(shared.begin(), shared.end(), true));
-      ASSERT_GT(nodes, 0U);
-      if (two.ties.directions.size() < 2 * nodes) break;
-      pressure = expect_one_field(one, two);
-    }
-    EXPECT_GE(held, 20);
-    EXPECT_GT(pressure, 3e9);
-  }
-}
-
-// One grain holds nothing for contact, however it moves particles.
+// One grain holds nothing for contact.
 TEST(Grains, OfOneNumberHoldNoMemory) {
-  for (const char* velocity : {"apic", "fmpm"}) {
-    Simulation<2> sim = start<2>(
-        scene_of(porous_text(), {std::string("transfer.velocity=") + velocity}), MPI_COMM_WORLD);
-    advance_to(20, 7, sim);
-    const GrainFields& all = sim.grain_fields;
-    EXPECT_FALSE(all.faces.has_value());
-    EXPECT_EQ(all.colours.capacity() + all.fields.capacity() + all.grids.capacity() +
-                  all.shared.capacity() + all.sides.capacity(),
-              0U);
-    EXPECT_EQ(sim.ties.nodes.capacity() + sim.ties.directions.capacity(), 0U);
-    for (const auto& column : sim.particles.facing) EXPECT_EQ(column.capacity(), 0U);
-  }
+  Simulation<2> sim = start<2>(scene_of(porous_text()), MPI_COMM_WORLD);
+  advance_to(20, 7, sim);
+  const GrainFields& all = sim.grain_fields;
+  EXPECT_FALSE(all.faces.has_value());
+  EXPECT_EQ(all.colours.capacity() + all.fields.capacity() + all.grids.capacity() +
+                all.shared.capacity() + all.sides.capacity(),
+            0U);
+  for (const auto& column : sim.particles.facing) EXPECT_EQ(column.capacity(), 0U);
 }
 
 // Grains too far apart to share a node have one colour, and then the bits are those of one field.
@@ -269,16 +226,6 @@ end = 1e-6
   }
   MPI_Allreduce(MPI_IN_PLACE, &large, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   EXPECT_LT(large, 0.5 * before.momentum[1]);  // it has taken most of theirs
-}
-
-TEST(Grains, MuslIsRefused) {
-  try {
-    start<2>(scene_of(stacked_text(1, 0.0), {"transfer.preset=lineage", "transfer.update=musl"}),
-             MPI_COMM_WORLD);
-    FAIL() << "MUSL with two grains";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("transfer.update: found \"musl\""), std::string::npos);
-  }
 }
 
 }  // namespace

@@ -257,36 +257,4 @@ std::vector<double> average(const GridShape& shape, const Particles<Dim>& partic
   return result;
 }
 
-/// Mass-weighted average of one number per particle to the nodes.
-template <int Dim>
-std::vector<double> nodal_mean(const GridShape& shape, const Particles<Dim>& particles,
-                               const std::vector<double>& values) {
-  std::vector<double> mass(static_cast<std::size_t>(shape.row_size) * shape.rows, 0.0);
-  std::vector<double> mean = mass;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double m = particles.mass[p];
-    for_each_node<Dim>(shape, position(particles, p),
-                       [&](int i, double n, const auto&, const auto&) {
-                         mass[i] += m * n;
-                         mean[i] += m * n * values[p];
-                       });
-  }
-  for (std::size_t i = 0; i < mass.size(); ++i) mean[i] = mass[i] > 0.0 ? mean[i] / mass[i] : 0.0;
-  return mean;
-}
-
-/// (1 - P) of one number per particle, P the mass-weighted average to the nodes and back.
-template <int Dim>
-std::vector<double> residual(const GridShape& shape, const Particles<Dim>& particles,
-                             const std::vector<double>& values) {
-  const std::vector<double> mean = nodal_mean(shape, particles, values);
-  std::vector<double> result = values;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    for_each_node<Dim>(
-        shape, position(particles, p),
-        [&](int i, double n, const auto&, const auto&) { result[p] -= n * mean[i]; });
-  }
-  return result;
-}
-
 }  // namespace poreshock::reference

@@ -35,7 +35,7 @@ struct Choice {
   bool periodic;
 };
 
-inline const std::array<Choice, 12> all_choices = {
+inline const std::array<Choice, 11> all_choices = {
     {{ShapeFunction::quadratic, VelocityTransfer::apic, false},
      {ShapeFunction::quadratic, VelocityTransfer::flip, true},
      {ShapeFunction::cubic, VelocityTransfer::apic, false},
@@ -44,14 +44,13 @@ inline const std::array<Choice, 12> all_choices = {
      {ShapeFunction::quadratic, VelocityTransfer::apic, true},
      {ShapeFunction::linear, VelocityTransfer::flip, true},
      {ShapeFunction::gimp, VelocityTransfer::flip, false},
-     {ShapeFunction::gimp, VelocityTransfer::fmpm, true},
+     {ShapeFunction::gimp, VelocityTransfer::flip, true},
      {ShapeFunction::quadratic, VelocityTransfer::pic, false},
-     {ShapeFunction::cubic, VelocityTransfer::pic, true},
-     {ShapeFunction::cubic, VelocityTransfer::fmpm, false}}};
+     {ShapeFunction::cubic, VelocityTransfer::pic, true}}};
 
 inline std::string name(const Choice& choice) {
   constexpr std::array shapes = {"linear ", "gimp ", "quadratic ", "cubic "};
-  constexpr std::array velocities = {"pic", "flip", "apic", "fmpm"};
+  constexpr std::array velocities = {"pic", "flip", "apic"};
   return std::string(shapes[static_cast<std::size_t>(choice.shape)]) +
          velocities[static_cast<std::size_t>(choice.velocity)] +
          (choice.periodic ? " periodic" : "");

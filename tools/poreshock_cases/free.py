@@ -12,7 +12,6 @@ SCHEMES = {  # name: settings
     "cubic APIC, averaged": ("transfer.velocity=apic", "transfer.averaging=1"),
     "cubic FLIP": ("transfer.velocity=flip", "transfer.averaging=0", "transfer.damping=0"),
     "quadratic FLIP, averaged": ("transfer.shape=quadratic", "transfer.velocity=flip", "transfer.averaging=1"),
-    "cubic FMPM(3)": ("transfer.velocity=fmpm", "transfer.averaging=0"),
     "lineage": ("transfer.preset=lineage",),
 }
 
@@ -115,7 +114,7 @@ def spinning(case, lab):
 def spray(case, lab):
     """Single particles over a hundred cells."""
     rows = []
-    for name in ("default", "cubic APIC", "quadratic APIC", "cubic FLIP", "cubic FMPM(3)"):
+    for name in ("default", "cubic APIC", "quadratic APIC", "cubic FLIP"):
         run = lab.run(name.replace(" ", "_"), "hard/spray.toml", *SCHEMES[name])
         first, last = run.particles(0), run.particles()
         change = numpy.linalg.norm(last["velocity"] - first["velocity"], axis=1)

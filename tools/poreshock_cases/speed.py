@@ -12,8 +12,7 @@ from poreshock_cases.program import ROOT, CaseError, Run
 QUIET = ("output.snapshot=1.0", "morphology.every=0.0", "profile.every=0.0")
 # The function of each phase whose instructions are counted with all that it calls.
 PHASES = {"sort": "sort_particles", "particles to grid": "particles_to_grid", "average": "sum_pressure|sum_dilatation",
-          "grid to particles": "grid_to_particles", "stress": "update_stress", "filter": "filter_velocity",
-          "contact": "collide"}
+          "grid to particles": "grid_to_particles", "stress": "update_stress", "contact": "collide"}
 # A core's share of the last cache, as valgrind wants it: bytes, ways, bytes of a line.
 CACHE = "2097152,16,64"
 # Above it glibc clears memory by one instruction per byte as valgrind counts them.
@@ -44,8 +43,6 @@ SCHEMES = (
     Scheme("cubic APIC", ("transfer.averaging=0.0", "viscosity.quadratic=2.25")),
     Scheme("cubic FLIP", ("transfer.velocity='flip'", "transfer.averaging=0.0", "viscosity.quadratic=2.25")),
     Scheme("cubic FLIP, averaged", ("transfer.velocity='flip'",)),
-    Scheme("cubic FMPM(3)", ("transfer.velocity='fmpm'", "transfer.order=3", "transfer.averaging=0.0",
-                             "viscosity.quadratic=2.25")),
     Scheme("quadratic APIC", ("transfer.shape='quadratic'", "transfer.averaging=0.0", "viscosity.quadratic=2.25")),
     Scheme("quadratic APIC, averaged", ("transfer.shape='quadratic'",)),
 )

@@ -14,14 +14,12 @@ namespace poreshock {
 /// Phases of a run, in the order of the table at its end.
 enum class PhaseName {
   sort,
-  filter,
   particles_to_grid,
   exchange,
   average,
   grid_update,
   contact,
   grid_to_particles,
-  remap,
   conduction,
   stress,
   time_step,

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "poreshock/physics/gap.hpp"
-#include "poreshock/transfer/tied_nodes.hpp"
 
 namespace poreshock {
 
@@ -30,11 +29,5 @@ struct ContactReport {
 template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
                               const FaceTable& faces, const Vector<Dim>* normal = nullptr);
-
-/// The pairs that touch and push each other when the grains collide as above, stuck where their
-/// friction is not used up; returns how many. The grains stay as they are. Pure function.
-template <int Dim>
-int find_ties(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
-              const FaceTable& faces, const Vector<Dim>* normal, NodeTies<Dim>& ties);
 
 }  // namespace poreshock

@@ -22,8 +22,7 @@ enum class GapTest { volume, none };
 enum class ContactNormal { gradients, regression };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
 enum class ShapeFunction { linear, gimp, quadratic, cubic };
-enum class VelocityTransfer { pic, flip, apic, fmpm };
-enum class VelocityUpdate { usl, musl };
+enum class VelocityTransfer { pic, flip, apic };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class MapLattice { eulerian, lagrangian };
 enum class MapVoids { black, white, fill, exclude };
@@ -116,9 +115,7 @@ struct Loading {
 struct Transfer {
   ShapeFunction shape = ShapeFunction::cubic;
   VelocityTransfer velocity = VelocityTransfer::apic;
-  double damping = 0.0;  ///< 1/s, FLIP only
-  int order = 3;         ///< FMPM only: order of its filter
-  VelocityUpdate update = VelocityUpdate::usl;
+  double damping = 0.0;      ///< 1/s, FLIP only
   double averaging = 1.0;    ///< 0 (off) ... 1 share of the averaged dilatation
   double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
   bool operator==(const Transfer&) const = default;

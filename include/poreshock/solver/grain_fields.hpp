@@ -10,7 +10,6 @@
 #include "poreshock/output/history.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/physics/grain_contact.hpp"
-#include "poreshock/physics/grain_ties.hpp"
 #include "poreshock/physics/self_contact.hpp"
 
 namespace poreshock {
@@ -38,8 +37,8 @@ struct GrainFields {
 template <int Dim>
 struct Simulation;
 
-/// Counts the grains of all ranks; with one the fields stay unused. Throws InputError for schemes
-/// that cannot have grains. Collective.
+/// Counts the grains of all ranks; with one the fields stay unused. Throws InputError for
+/// self-contact of several. Collective.
 template <int Dim>
 void find_grains(Simulation<Dim>& sim);
 
@@ -48,15 +47,6 @@ void find_grains(Simulation<Dim>& sim);
 /// gathers of what is small).
 template <int Dim>
 void split_by_colour(Simulation<Dim>& sim);
-
-/// With FMPM, after a momentum update with the velocities before the filter: which grains touch and
-/// push each other. Nothing with a single colour. Collective (one exchange per field).
-template <int Dim>
-void find_ties(double dt, Simulation<Dim>& sim);
-
-/// With FMPM, before the momentum update: start velocities keep to the ties. Not collective.
-template <int Dim>
-void tie_starts(Simulation<Dim>& sim);
 
 /// Between the momentum update and the boundaries: surfaces of the grains at shared nodes, and
 /// their collisions. Nothing with a single colour. Collective (one exchange per field).

@@ -40,7 +40,6 @@ struct Simulation {
   std::unique_ptr<SlabGrid> grid;
   std::unique_ptr<SlabGrid> averages;  ///< only with averaged dilatation
   GrainFields grain_fields;            ///< only used where grains of two colours exist
-  TiedNodes<Dim> ties;                 ///< of this step, only with FMPM there
   std::unique_ptr<SlabGrid> heat;      ///< only with heat conduction
   HeatFlow<Dim> heat_flow;             ///< empty without heat conduction
   double conduction_limit = 0.0;       ///< s, infinite without heat conduction

@@ -17,12 +17,11 @@ void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid);
 
 /// Updates velocity, affine velocity and position of the particles of `rows` and sets
 /// step.gradient, step.rate and step.heat, in canonical order from the first of them. Positions
-/// advance relative to the grid, which moves with grid_velocity; with MUSL they wait for
-/// gather_remapped and step.transport is set. With averaging step.dilatation_end and dilatation_mid
-/// are set too, own and averaged mixed by the share; `averages` then holds what average_dilatation
-/// left, else it is null. The filter heat of this sweep (J) is added to filter_heat in quanta.
-/// Source of the closures: FLIP and APIC kinetic energy balances, sum_p m_p v_p . dv_p = sum_i m_i
-/// v_i . dv_i. Not collective.
+/// advance relative to the grid, which moves with grid_velocity. With averaging
+/// step.dilatation_end and dilatation_mid are set too, own and averaged mixed by the share;
+/// `averages` then holds what average_dilatation left, else it is null. The filter heat of this
+/// sweep (J) is added to filter_heat in quanta. Source of the closures: FLIP and APIC kinetic
+/// energy balances, sum_p m_p v_p . dv_p = sum_i m_i v_i . dv_i. Not collective.
 template <int Dim>
 void grid_to_particles(const SlabGrid& grid, const SlabGrid* averages, const CellOrder& cells,
                        RowRange rows, const Transfer& transfer, const Vector<Dim>& grid_velocity,

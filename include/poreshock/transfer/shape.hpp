@@ -220,13 +220,6 @@ inline void with_shape(const Transfer& transfer, Run&& run) {
   }
 }
 
-/// The same for the hat and its average over the particle, the shapes that MUSL is made for.
-template <class Run>
-inline void with_hat(const Transfer& transfer, Run&& run) {
-  transfer.shape == ShapeFunction::linear ? run(LinearHat{})
-                                          : run(UniformGimp{transfer.half_length});
-}
-
 /// Lowest node of the stencil at s along an axis of `nodes` nodes, for a stencil of `width` nodes.
 /// A coordinate that rounds to the far end of the domain belongs to the last cell.
 inline int stencil_base(int width, double s, int nodes) {

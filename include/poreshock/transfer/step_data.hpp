@@ -11,14 +11,10 @@ namespace poreshock {
 template <int Dim>
 inline constexpr int rate_size = Dim == 2 ? 3 : 6;
 
-/// Results of the transfer sweeps.
+/// Results of the transfer sweeps, in canonical order from the first particle of the rows that
+/// grid_to_particles took.
 template <int Dim>
 struct StepData {
-  // A particle an entry, like the particle columns:
-  std::array<std::vector<double>, Dim> residual;   ///< m/s, part the filter takes; only with FMPM
-  std::vector<double> filter_heat;                 ///< J/kg, of that part; only with FMPM
-  std::array<std::vector<double>, Dim> transport;  ///< m/s, velocity of the places; only with MUSL
-  // In canonical order, from the first particle of the rows that grid_to_particles took:
   std::array<std::vector<double>, Dim * Dim> gradient;   ///< 1/s, of the new velocity, row major
   std::array<std::vector<double>, rate_size<Dim>> rate;  ///< 1/s, symmetric gradient at mid-step
   std::vector<double> heat;                              ///< J/kg, filter, wall and contact heat
