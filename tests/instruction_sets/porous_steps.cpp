@@ -270,7 +270,7 @@ int main(int argc, char** argv) {
   using enum VelocityTransfer;
   using enum SideKind;
   constexpr Thermal paper = Thermal::paper, conserving = Thermal::conserving;
-  const std::array<Case, 8> plane = {
+  const std::array<Case, 9> plane = {
       {{"plane cubic APIC", {.shape = cubic, .velocity = apic}, conserving, symmetry},
        {"plane quadratic FLIP averaged",
         {.shape = quadratic, .velocity = flip, .damping = 1.0e7, .averaging = 1.0},
@@ -282,6 +282,7 @@ int main(int argc, char** argv) {
         wall},
        {"plane quadratic APIC", {.shape = quadratic, .velocity = apic}, paper, wall},
        {"plane GIMP FLIP", {.shape = gimp, .velocity = flip, .half_length = 0.25}, paper, wall},
+       {"plane cubic PIC", {.shape = cubic, .velocity = pic}, conserving, periodic},
        {"plane cubic APIC averaged",
         {.shape = cubic, .velocity = apic, .averaging = 1.0},
         conserving,
