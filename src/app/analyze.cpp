@@ -7,6 +7,7 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/output/folder.hpp"
+#include "poreshock/scene/levels.hpp"
 #include "poreshock/solver/measure.hpp"
 #include "stored_map.hpp"
 #include "text.hpp"
@@ -14,8 +15,6 @@
 namespace poreshock {
 
 namespace {
-
-constexpr std::size_t most_thresholds = 65534;
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts = {""};
@@ -45,16 +44,12 @@ std::vector<double> parse_levels(const std::string& option, const std::string& t
     if (!range && !numbers.empty() && !(*number > numbers.back())) refuse_levels(option, text);
     numbers.push_back(*number);
   }
+  if (!range && static_cast<double>(numbers.size()) > most_thresholds) refuse_levels(option, text);
   if (!range) return numbers;
-  if (numbers.size() != 3 || !(numbers[2] > 0.0)) refuse_levels(option, text);
-  const double steps = (numbers[1] - numbers[0]) / numbers[2];
-  if (!(steps >= 0.0 && steps < static_cast<double>(most_thresholds))) refuse_levels(option, text);
-  std::vector<double> levels;
-  // The small share takes up the rounding of the division, so that the end itself is not lost.
-  const int count = static_cast<int>(std::floor(steps + 1e-6)) + 1;
-  levels.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) levels.push_back(numbers[0] + i * numbers[2]);
-  return levels;
+  if (numbers.size() != 3) refuse_levels(option, text);
+  const auto levels = levels_between(numbers[0], numbers[1], numbers[2]);
+  if (!levels) refuse_levels(option, text);
+  return *levels;
 }
 
 /// What all files share.
@@ -98,13 +93,31 @@ Request make_request(const AnalyzeOptions& options) {
 struct Measured {
   RecordStamp stamp;
   MorphologyRecord record;
+  std::string held;  ///< what the map could not take as it is; empty: nothing
 };
+
+/// Says what was cut, held or left out of a map.
+template <int Dim>
+std::string held_text(const PixelField<Dim>& map) {
+  std::string text;
+  const auto add = [&](std::int64_t count, const std::string& what) {
+    if (count > 0) text += "  " + std::to_string(count) + " " + what + "\n";
+  };
+  add(map.capped, "particles are larger than two cells and were cut to that");
+  add(map.clamped,
+      "particles have values that are not finite, or 64 times the density of the "
+      "densest material; they were held");
+  add(map.skipped, "particles without positive finite size, density and place were left out");
+  return text;
+}
 
 template <int Dim>
 Measured measure_map(StoredMap<Dim> stored, Request request, MPI_Comm communicator) {
   request.what.name = stored.field;
-  return {stored.stamp, measure<Dim>(stored.map, 0, request.what, stored.unit, request.settings,
-                                     stored.shift, communicator)};
+  return {stored.stamp,
+          measure<Dim>(stored.map, 0, request.what, stored.unit, request.settings, stored.shift,
+                       communicator),
+          held_text(stored.map)};
 }
 
 /// Arrays are numbered as they come; their time is that number.
@@ -143,11 +156,10 @@ Measured measure_snapshot(const std::string& path, const Request& request, MPI_C
     }
     dimension = file.integer("dimension");
   }
-  const MorphologyField& what = request.what;
-  return dimension == 2 ? measure_map<2>(map_of_snapshot<2>(path, options, what, communicator),
-                                         request, communicator)
-                        : measure_map<3>(map_of_snapshot<3>(path, options, what, communicator),
-                                         request, communicator);
+  return dimension == 2 ? measure_map<2>(map_of_snapshot<2>(path, options, communicator), request,
+                                         communicator)
+                        : measure_map<3>(map_of_snapshot<3>(path, options, communicator), request,
+                                         communicator);
 }
 
 void print(const std::string& name, const Measured& measured) {
@@ -162,6 +174,7 @@ void print(const std::string& name, const Measured& measured) {
     std::printf("\n");
   }
   if (!record.spot_columns.empty()) std::printf("  %zu hot spots listed\n", record.spots);
+  std::printf("%s", measured.held.c_str());
 }
 
 }  // namespace

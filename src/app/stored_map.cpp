@@ -8,7 +8,6 @@
 #include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/solver/measure.hpp"
 
 namespace poreshock {
 
@@ -137,6 +136,7 @@ StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& opti
   StoredMap<Dim> result;
   PixelField<Dim>& map = result.map;
   map.layout = grid.layout();
+  map.single_precision = array.single_precision;
   map.rows = grid.rows();
   map.first = grid.first_row() == 0;
   map.last = grid.first_row() + grid.rows() == map.layout.pixels[Dim - 1];
@@ -157,7 +157,7 @@ StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& opti
 
 template <int Dim>
 StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& options,
-                               const MorphologyField& what, MPI_Comm communicator) {
+                               MPI_Comm communicator) {
   Hdf5File file = Hdf5File::open(path, communicator);
   const Scene scene = parse_scene(file.text("scene"), path);
   const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
@@ -180,10 +180,12 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   const Columns columns{equal_share(file.dataset("/particles/id").rows(), communicator), path,
                         file};
   const std::vector<double> values = read_field<Dim>(result.field, columns);
+  const bool single = scene.output.precision == Precision::single_precision;
   if (sites) {
     std::vector<std::int64_t> id(columns.rows.count);
     file.read<std::int64_t>("/particles/id", columns.rows.first, id);
     result.map = place_on_lattice<Dim>(id, {values}, grid);
+    result.map.single_precision = single;
     return result;
   }
   auto position = columns.read("position", Dim);
@@ -201,16 +203,14 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   for (const MaterialParameters& m : scene.materials) {
     scales.density = std::max(scales.density, initial_density(make_material(m)));
   }
-  const std::vector<PixelValues> fields = {{values, map_scale(what, values, communicator)}};
-  result.map = deposit<Dim>(sources, fields, scales, grid);
+  result.map = deposit<Dim>(sources, {values}, scales, grid);
+  result.map.single_precision = single;
   return result;
 }
 
 template StoredMap<2> map_of_array<2>(const StoredArray&, const AnalyzeOptions&, MPI_Comm);
 template StoredMap<3> map_of_array<3>(const StoredArray&, const AnalyzeOptions&, MPI_Comm);
-template StoredMap<2> map_of_snapshot<2>(const std::string&, const AnalyzeOptions&,
-                                         const MorphologyField&, MPI_Comm);
-template StoredMap<3> map_of_snapshot<3>(const std::string&, const AnalyzeOptions&,
-                                         const MorphologyField&, MPI_Comm);
+template StoredMap<2> map_of_snapshot<2>(const std::string&, const AnalyzeOptions&, MPI_Comm);
+template StoredMap<3> map_of_snapshot<3>(const std::string&, const AnalyzeOptions&, MPI_Comm);
 
 }  // namespace poreshock

@@ -31,10 +31,10 @@ template <int Dim>
 StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& options,
                             MPI_Comm communicator);
 
-/// The map of a snapshot, made from its particles as a run that measures `what` does.
+/// The map of a snapshot, made from its particles as a run does.
 /// Throws InputError when it lacks a dataset. Collective.
 template <int Dim>
 StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& options,
-                               const MorphologyField& what, MPI_Comm communicator);
+                               MPI_Comm communicator);
 
 }  // namespace poreshock

@@ -1,6 +1,7 @@
 #pragma once
 // Adding a particle to the sums of the pixels that its square covers. Private to the layer.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -11,25 +12,33 @@
 
 namespace poreshock {
 
-/// What a particle adds to the sums of a pixel, where it covers `overlap` of it.
+/// What a particle adds to the sums of a pixel; the compiler knows the usual numbers of fields.
+template <std::size_t Fields = std::dynamic_extent>
 struct Content {
   double density;
-  std::span<const std::int64_t> rounded;
+  std::span<const Addend, Fields> values;
 };
 
-inline void add_to_pixel(double overlap, const Content& content, std::uint64_t* pixel) {
+/// Adds the content of a particle that covers `overlap` of a pixel, in 2^-18.
+template <std::size_t Fields>
+void add_to_pixel(double overlap, const Content<Fields>& content, std::uint64_t* pixel) {
   const std::int64_t weight = std::llrint(overlap * content.density);
   pixel[0] += static_cast<std::uint64_t>(std::llrint(overlap));
   pixel[1] += static_cast<std::uint64_t>(weight);
-  for (std::size_t k = 0; k < content.rounded.size(); ++k) {
-    pixel[2 + k] += static_cast<std::uint64_t>(weight * content.rounded[k]);
+  // What weighs nothing has no say about the least value.
+  const std::uint64_t counted = weight > 0 ? ~std::uint64_t{0} : 0;
+  for (std::size_t k = 0; k < content.values.size(); ++k) {
+    const Addend& value = content.values[k];
+    std::uint64_t* sums = pixel + first_sum + 2 * k;
+    sums[0] += static_cast<std::uint64_t>(weight * value.multiple);
+    sums[1] = std::max(sums[1], value.key & counted);
   }
 }
 
 /// Adds one particle to the sums, along x innermost.
-template <int Dim>
-void add_square(const std::array<Overlaps, Dim>& overlaps, int width, const Content& content,
-                RowSums& sums) {
+template <int Dim, std::size_t Fields>
+void add_square(const std::array<Overlaps, Dim>& overlaps, int width,
+                const Content<Fields>& content, RowSums& sums) {
   const Overlaps& x = overlaps[0];
   const Overlaps& last = overlaps[Dim - 1];
   const std::size_t middle = Dim == 3 ? overlaps[1].count : 1;
@@ -51,8 +60,9 @@ void add_square(const std::array<Overlaps, Dim>& overlaps, int width, const Cont
 /// Adds a square no larger than a pixel that lies inside the map, to four pixels, some of which it
 /// may not reach. Without branches, since where a particle lies cannot be predicted. Says false,
 /// and adds nothing, where the square is another one.
-inline bool add_small_square(const Interval& x, const Interval& y, const std::array<int, 2>& pixels,
-                             const Content& content, RowSums& sums) {
+template <std::size_t Fields>
+bool add_small_square(const Interval& x, const Interval& y, const std::array<int, 2>& pixels,
+                      const Content<Fields>& content, RowSums& sums) {
   const double left = std::floor(x.low);
   const double bottom = std::floor(y.low);
   const bool small = x.high <= left + 2.0 && y.high <= bottom + 2.0 && left >= 0.0 &&

@@ -13,6 +13,11 @@
 #include "row_sums.hpp"
 #include "squares.hpp"
 
+// Values. A field is rounded down to multiples of a power of two, 2^-31 of its largest value, so
+// the map knows nothing of what will be asked of it. The mean of what was rounded down lies at most
+// one quantum below the mean, and is lifted to the least value in the pixel: so it lies between the
+// least and the largest, and uniform material keeps its value to the bit.
+//
 // Range of the sums. A value is an integer |v| <= 2^31, so |sum of W v| <= (sum of W) 2^31, which
 // stays below 2^63 as long as sum of W < 2^32, that is 2^14 typical densities in one pixel. One
 // contribution has W <= 2^24 (density held to 64 typical densities), so the sum of W itself is
@@ -29,7 +34,7 @@ template <int Dim>
 RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
                   const PixelScales& scales, const PixelGrid<Dim>& grid) {
   const int rows = grid.layout().pixels[Dim - 1];
-  const double most = value_limit * grid.layout().pixel_size;  // beyond, a particle is skipped
+  const double most = place_limit * grid.layout().pixel_size;  // beyond, a particle is skipped
   double low = most;
   double high = -most;
   for (const double y : particles.position[Dim - 1]) {
@@ -47,8 +52,8 @@ RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
 }
 
 /// Adds the particle with number i of a stretch.
-template <int Dim>
-void add_particle(const Squares<Dim>& squares, std::size_t i, const Content& content,
+template <int Dim, std::size_t Fields>
+void add_particle(const Squares<Dim>& squares, std::size_t i, const Content<Fields>& content,
                   const PixelLayout<Dim>& layout, std::array<Overlaps, Dim>& overlaps,
                   RowSums& band) {
   if constexpr (Dim == 2) {
@@ -65,28 +70,67 @@ void add_particle(const Squares<Dim>& squares, std::size_t i, const Content& con
   add_square<Dim>(overlaps, layout.pixels[0], content, band);
 }
 
+/// The rounding of every field. Collective.
+std::vector<ValueRounding> find_roundings(const std::vector<std::span<const double>>& columns,
+                                          MPI_Comm communicator) {
+  std::vector<double> largest(columns.size(), 0.0);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    for (const double value : columns[k]) {
+      const double size = std::abs(value);
+      const bool larger = size > largest[k] && size <= std::numeric_limits<double>::max();
+      largest[k] = larger ? size : largest[k];
+    }
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()),
+                          MPI_DOUBLE, MPI_MAX, communicator),
+            "MPI_Allreduce");
+  std::vector<ValueRounding> roundings;
+  for (const double value : largest) roundings.push_back(rounding_of(value));
+  return roundings;
+}
+
+/// Adds a stretch of particles, whose addends stand field after field.
+template <int Dim, std::size_t Fields>
+void add_stretch(const Squares<Dim>& squares, std::size_t count, std::span<const Addend> addends,
+                 const PixelLayout<Dim>& layout, std::array<Overlaps, Dim>& overlaps,
+                 RowSums& band) {
+  constexpr std::size_t stretch = Squares<Dim>::stretch;
+  std::vector<Addend> own(addends.size() / stretch);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (squares.usable[i] == 0) continue;
+    for (std::size_t k = 0; k < own.size(); ++k) own[k] = addends[k * stretch + i];
+    const Content<Fields> content{squares.density[i],
+                                  std::span<const Addend, Fields>(own.begin(), own.end())};
+    add_particle<Dim>(squares, i, content, layout, overlaps, band);
+  }
+}
+
 template <int Dim>
-RowSums sum_particles(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
-                      const PixelScales& scales, const PixelGrid<Dim>& grid, Counters& counters) {
+RowSums sum_particles(const PixelSources<Dim>& particles,
+                      const std::vector<std::span<const double>>& columns,
+                      std::span<const ValueRounding> roundings, const PixelScales& scales,
+                      const PixelGrid<Dim>& grid, Counters& counters) {
   constexpr std::size_t stretch = Squares<Dim>::stretch;
   const PixelLayout<Dim>& layout = grid.layout();
-  RowSums band = make_band(particles, 2 + values.size(), scales, grid);
+  const std::size_t fields = columns.size();
+  RowSums band = make_band(particles, first_sum + 2 * fields, scales, grid);
   std::array<Overlaps, Dim> overlaps;
   overlaps.fill(make_overlaps(scales.max_side / layout.pixel_size));
   Squares<Dim> squares;
-  std::vector<std::int64_t> rounded(values.size() * stretch);
-  std::vector<std::int64_t> own(values.size());
+  std::vector<Addend> addends(fields * stretch);
   for (std::size_t first = 0; first < particles.mass.size(); first += stretch) {
     const std::size_t count = std::min(stretch, particles.mass.size() - first);
     make_squares(particles, first, count, scales, layout.pixel_size, squares, counters);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      counters.clamped += round_values(values[k], first, count, squares.usable.data(),
-                                       rounded.data() + k * stretch);
+    for (std::size_t k = 0; k < fields; ++k) {
+      counters.clamped += round_values(columns[k].subspan(first, count), roundings[k],
+                                       squares.usable.data(), addends.data() + k * stretch);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (squares.usable[i] == 0) continue;
-      for (std::size_t k = 0; k < own.size(); ++k) own[k] = rounded[k * stretch + i];
-      add_particle<Dim>(squares, i, {squares.density[i], own}, layout, overlaps, band);
+    if (fields == 1) {
+      add_stretch<Dim, 1>(squares, count, addends, layout, overlaps, band);
+    } else if (fields == 2) {
+      add_stretch<Dim, 2>(squares, count, addends, layout, overlaps, band);
+    } else {
+      add_stretch<Dim, std::dynamic_extent>(squares, count, addends, layout, overlaps, band);
     }
   }
   return band;
@@ -105,16 +149,13 @@ void check_positive(double value, const char* name) {
 }
 
 template <int Dim>
-void check_input(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
-                 const PixelScales& scales) {
+void check_input(const PixelSources<Dim>& particles,
+                 const std::vector<std::span<const double>>& columns, const PixelScales& scales) {
   const std::size_t count = particles.mass.size();
-  if (values.empty()) throw InputError("the deposit got no values; it needs at least one field.");
+  if (columns.empty()) throw InputError("the deposit got no values; it needs at least one field.");
   check_columns(particles.density.size(), count, "density");
   for (const auto& column : particles.position) check_columns(column.size(), count, "position");
-  for (const PixelValues& entry : values) {
-    check_columns(entry.value.size(), count, "a value");
-    check_positive(entry.scale, "value scale");
-  }
+  for (const auto& column : columns) check_columns(column.size(), count, "a value");
   check_positive(scales.density, "density scale (kg/m^3)");
   check_positive(scales.max_side, "largest particle side (m)");
 }
@@ -140,7 +181,8 @@ void share_counters(const Counters& counters, const RowSums& sums, MPI_Comm comm
 
 /// Means of the owned pixels and NaN where less than half of a pixel is covered.
 template <int Dim>
-void take_means(const RowSums& sums, std::span<const PixelValues> values, PixelField<Dim>& map) {
+void take_means(const RowSums& sums, std::span<const ValueRounding> roundings,
+                PixelField<Dim>& map) {
   const std::size_t pixels = sums.data.size() / sums.components;
   map.coverage.resize(pixels);
   for (std::size_t p = 0; p < pixels; ++p) {
@@ -151,13 +193,14 @@ void take_means(const RowSums& sums, std::span<const PixelValues> values, PixelF
     const bool solid = 2 * map.coverage[p] >= full_coverage && weight > 0;
     map.solid[p] = solid ? 1 : 0;
     if (!solid) continue;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      // Whole part and remainder apart: a uniform field comes out uniform to the last bit.
-      const auto total = static_cast<std::int64_t>(pixel[2 + k]);
+    for (std::size_t k = 0; k < roundings.size(); ++k) {
+      // Whole part and remainder apart, so that the sum of large numbers loses no digits.
+      const auto total = static_cast<std::int64_t>(pixel[first_sum + 2 * k]);
       const std::int64_t whole = total / weight;
       const double mean = static_cast<double>(whole) +
                           static_cast<double>(total % weight) / static_cast<double>(weight);
-      map.values[k][p] = mean * (values[k].scale / value_unit);
+      const double least = value_of_key(pixel[first_sum + 2 * k + 1]);
+      map.values[k][p] = std::max(least, mean * roundings[k].quantum);
     }
   }
 }
@@ -222,15 +265,17 @@ PixelField<Dim> make_map(const PixelGrid<Dim>& grid, std::size_t fields) {
 }  // namespace
 
 template <int Dim>
-PixelField<Dim> deposit(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
+PixelField<Dim> deposit(const PixelSources<Dim>& particles,
+                        const std::vector<std::span<const double>>& columns,
                         const PixelScales& scales, const PixelGrid<Dim>& grid) {
-  check_input(particles, values, scales);
+  check_input(particles, columns, scales);
   Counters counters;
-  const RowSums band = sum_particles(particles, values, scales, grid, counters);
+  const auto roundings = find_roundings(columns, grid.communicator());
+  const RowSums band = sum_particles(particles, columns, roundings, scales, grid, counters);
   const RowSums owned = send_to_owners(band, grid.row_starts(), grid.communicator());
-  PixelField<Dim> map = make_map(grid, values.size());
+  PixelField<Dim> map = make_map(grid, columns.size());
   share_counters(counters, owned, grid.communicator(), map);
-  take_means(owned, values, map);
+  take_means(owned, roundings, map);
 
   // The mask travels as the NaN of void pixels: means are finite, whatever the particles hold.
   for (std::vector<double>& field : map.values) fetch_ghost_row(grid, field);
@@ -241,9 +286,11 @@ PixelField<Dim> deposit(const PixelSources<Dim>& particles, std::span<const Pixe
   return map;
 }
 
-template PixelField<2> deposit<2>(const PixelSources<2>&, std::span<const PixelValues>,
-                                  const PixelScales&, const PixelGrid<2>&);
-template PixelField<3> deposit<3>(const PixelSources<3>&, std::span<const PixelValues>,
-                                  const PixelScales&, const PixelGrid<3>&);
+template PixelField<2> deposit<2>(const PixelSources<2>&,
+                                  const std::vector<std::span<const double>>&, const PixelScales&,
+                                  const PixelGrid<2>&);
+template PixelField<3> deposit<3>(const PixelSources<3>&,
+                                  const std::vector<std::span<const double>>&, const PixelScales&,
+                                  const PixelGrid<3>&);
 
 }  // namespace poreshock

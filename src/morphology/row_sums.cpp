@@ -21,7 +21,13 @@ RowRange shared_rows(const RowRange& a, const RowRange& b) {
 void add_rows(const std::uint64_t* source, const RowRange& range, RowSums& target) {
   std::uint64_t* sums = target.row(range.begin);
   const std::size_t count = static_cast<std::size_t>(range.end - range.begin) * target.row_length;
-  for (std::size_t i = 0; i < count; ++i) sums[i] += source[i];
+  for (std::size_t p = 0; p < count; p += target.components) {
+    for (std::size_t k = p; k < p + first_sum; ++k) sums[k] += source[k];
+    for (std::size_t k = p + first_sum; k < p + target.components; k += 2) {
+      sums[k] += source[k];
+      sums[k + 1] = std::max(sums[k + 1], source[k + 1]);
+    }
+  }
 }
 
 /// MPI type of one row, so that message lengths are rows and fit an int.

@@ -11,6 +11,10 @@
 
 namespace poreshock {
 
+/// Components of a pixel before those of the fields: covered area, weight. A field has two: the sum
+/// of weight times value, and the key of the least value, which is the largest key.
+inline constexpr std::size_t first_sum = 2;
+
 /// Sums of consecutive rows of the map, `components` numbers per pixel side by side.
 struct RowSums {
   int first;  ///< number of the first row in the map

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,8 +16,7 @@
 namespace poreshock {
 
 inline constexpr double weight_unit = 262144.0;      // 2^18
-inline constexpr double value_unit = 1048576.0;      // 2^20
-inline constexpr double value_limit = 2147483648.0;  // 2^31
+inline constexpr double place_limit = 2147483648.0;  // 2^31 pixels from the origin
 inline constexpr double density_limit = 64.0;
 
 /// What was held, cut or left out, on this rank.
@@ -49,7 +49,7 @@ void make_squares(const PixelSources<Dim>& particles, std::size_t first, std::si
                   Counters& counters) {
   const double* mass = particles.mass.data() + first;
   const double* density = particles.density.data() + first;
-  std::array<double, Squares<Dim>::stretch> sides, half;
+  std::array<double, Squares<Dim>::stretch> sides, half, ratios;
   std::int64_t capped = 0, clamped = 0, skipped = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double volume = mass[i] / density[i];
@@ -57,6 +57,7 @@ void make_squares(const PixelSources<Dim>& particles, std::size_t first, std::si
     // system it is a pure function, which is all that equal bits on any number of ranks need.
     const double side = Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
     const double ratio = density[i] / scales.density;
+    ratios[i] = ratio;
     sides[i] = side;
     half[i] = 0.5 * ((side < scales.max_side ? side : scales.max_side) / pixel_size);
     squares.density[i] = ratio < density_limit ? ratio : density_limit;
@@ -68,7 +69,7 @@ void make_squares(const PixelSources<Dim>& particles, std::size_t first, std::si
     for (std::size_t i = 0; i < count; ++i) {
       const double centre = position[i] / pixel_size;
       // Keeps the numbers of the pixels far inside 64 bits.
-      const bool near = std::abs(centre) < value_limit;
+      const bool near = std::abs(centre) < place_limit;
       squares.usable[i] = static_cast<std::uint8_t>(squares.usable[i] & (near ? 1 : 0));
       squares.low[axis][i] = centre - half[i];
       squares.high[axis][i] = centre + half[i];
@@ -77,7 +78,7 @@ void make_squares(const PixelSources<Dim>& particles, std::size_t first, std::si
   for (std::size_t i = 0; i < count; ++i) {
     const bool counted = squares.usable[i] != 0;
     capped += counted && sides[i] > scales.max_side ? 1 : 0;
-    clamped += counted && density[i] / scales.density > density_limit ? 1 : 0;
+    clamped += counted && ratios[i] > density_limit ? 1 : 0;
     skipped += counted ? 0 : 1;
   }
   counters.capped += capped;
@@ -119,18 +120,54 @@ inline void find_overlaps(const Interval& side, int pixels, bool periodic, Overl
   overlaps.count = count;
 }
 
-/// Rounds one value of a stretch of particles to integers; returns how many were held.
-inline std::int64_t round_values(const PixelValues& values, std::size_t first, std::size_t count,
-                                 const std::uint8_t* usable, std::int64_t* rounded) {
+/// A value as a map adds it up.
+struct Addend {
+  std::int64_t multiple = 0;  ///< of the quantum of its field, rounded down; |multiple| <= 2^31
+  std::uint64_t key = 0;      ///< the value itself, by descending_key
+};
+
+/// The bits of a value as a number that falls where the value rises; only NaN can give 0.
+inline std::uint64_t descending_key(double value) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  return ~((bits & sign) != 0 ? ~bits : bits | sign);
+}
+
+inline double value_of_key(std::uint64_t key) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  const std::uint64_t bits = ~key;
+  return std::bit_cast<double>((bits & sign) != 0 ? bits & ~sign : ~bits);
+}
+
+/// Rounding of the values of a field.
+struct ValueRounding {
+  double largest = 0.0;  ///< of all finite values by size
+  double quantum = 1.0;  ///< a power of two
+  double inverse_quantum = 1.0;
+};
+
+/// The rounding of values of at most this size: to 2^-31 of the power of two above it.
+inline ValueRounding rounding_of(double largest) {
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  // Far below, the inverse would leave the doubles.
+  exponent = std::max(exponent, -960) - 31;
+  return {largest, std::ldexp(1.0, exponent), std::ldexp(1.0, -exponent)};
+}
+
+/// Rounds one value of a stretch of particles; returns how many were not finite and are held.
+inline std::int64_t round_values(std::span<const double> values, const ValueRounding& rounding,
+                                 const std::uint8_t* usable, Addend* addends) {
   std::int64_t held_back = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double scaled = values.value[first + i] / values.scale * value_unit;
-    const bool inside = std::abs(scaled) <= value_limit;
-    held_back += !inside && usable[i] != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i];
+    const bool finite = std::abs(value) <= rounding.largest;
+    held_back += !finite && usable[i] != 0 ? 1 : 0;
     // NaN fails every comparison and becomes 0.
     const double held =
-        inside ? scaled : (scaled > 0.0 ? value_limit : (scaled < 0.0 ? -value_limit : 0.0));
-    rounded[i] = std::llrint(held);
+        finite ? value : (value > 0.0 ? rounding.largest : (value < 0.0 ? -rounding.largest : 0.0));
+    addends[i].multiple = static_cast<std::int64_t>(std::floor(held * rounding.inverse_quantum));
+    addends[i].key = descending_key(held);
   }
   return held_back;
 }

@@ -63,6 +63,7 @@ void read_npy_header(StoredArray& array) {
                      "; allowed are little-endian f4, f8, i1 ... i8, u1 ... u8 and b1, rows first: "
                      "numpy.save(name, numpy.ascontiguousarray(array, dtype=\"f8\"))");
   }
+  array.single_precision = array.number == "f4";
   array.shape = extents(header_value(header, "shape"));
   const std::uint64_t rows = array.shape.empty() ? 0 : array.shape[0];
   const std::uint64_t bytes = static_cast<std::uint64_t>(array.number[1] - '0');
@@ -120,6 +121,7 @@ StoredArray find_array(const std::string& name, MPI_Comm communicator) {
                        ": allowed are numbers of type float64, float32, int64, int32 and "
                        "uint8 (flags as uint8)");
     }
+    array.single_precision = info.type == NumberType::float32;
     array.shape = info.shape;
     array.unit = info.unit.empty() ? "1" : info.unit;
     return array;

@@ -2,13 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "poreshock/scene/levels.hpp"
 #include "toml_reader.hpp"
 
 namespace poreshock::scene_text {
 namespace {
-
-/// More would not fit the 16-bit ranks of the pixel counts.
-constexpr double most_thresholds = 65534.0;
 
 const NumberRule level_rule{any_number, "", "", Need::required};
 
@@ -148,18 +146,15 @@ bool TomlReader::read_range(const toml::table& table, const std::string& key,
   inner.number("step", step, {positive, "", "distance of thresholds", Need::required});
   inner.finish();
   if (report_.problems.size() > before) return false;
-  const double steps = (to - from) / step;
-  if (!(steps >= 0.0 && steps < most_thresholds)) {
-    add_problem(path_of(key),
-                "found from " + plain_number(from) + " to " + plain_number(to) + " by " +
-                    plain_number(step) + ", allowed to >= from and at most 65534 thresholds",
-                report_);
-    return false;
+  if (const auto range = levels_between(from, to, step)) {
+    levels = *range;
+    return true;
   }
-  // The small share takes up the rounding of the division, so that `to` itself is not lost.
-  const int count = static_cast<int>(std::floor(steps + 1e-6)) + 1;
-  for (int i = 0; i < count; ++i) levels.push_back(from + i * step);
-  return true;
+  add_problem(path_of(key),
+              "found from " + plain_number(from) + " to " + plain_number(to) + " by " +
+                  plain_number(step) + ", allowed to >= from and at most 65534 thresholds",
+              report_);
+  return false;
 }
 
 bool TomlReader::read_levels(const toml::node& node, const std::string& key,

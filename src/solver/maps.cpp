@@ -1,12 +1,10 @@
 #include "maps.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/morphology/lattice_map.hpp"
 #include "poreshock/particles/derived.hpp"
-#include "poreshock/solver/measure.hpp"
 
 namespace poreshock {
 
@@ -22,11 +20,6 @@ PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Si
                              const PixelGrid<Dim>& pixels) {
   const Scene& scene = sim.scene;
   const Particles<Dim>& particles = sim.particles;
-  std::vector<PixelValues> values;
-  for (std::size_t f = 0; f < columns.size(); ++f) {
-    values.push_back(
-        {columns[f], map_scale(scene.morphology.fields[f], columns[f], sim.communicator)});
-  }
   PixelSources<Dim> sources;
   for (int a = 0; a < Dim; ++a) sources.position[a] = particles.position[a];
   sources.mass = particles.mass;
@@ -35,7 +28,7 @@ PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Si
   for (const Material& m : sim.materials) {
     scales.density = std::max(scales.density, initial_density(m));
   }
-  PixelField<Dim> map = deposit<Dim>(sources, values, scales, pixels);
+  PixelField<Dim> map = deposit<Dim>(sources, {columns.begin(), columns.end()}, scales, pixels);
   // The counts are those of all ranks.
   if (rank(sim.communicator) == 0) {
     sim.ledger.guards.pixel += map.capped + map.clamped + map.skipped;

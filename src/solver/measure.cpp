@@ -1,6 +1,5 @@
 #include "poreshock/solver/measure.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -97,6 +96,15 @@ void append_interpolated(const PixelField<Dim>& map, std::size_t field, MPI_Comm
   record.functionals.push_back(std::move(boundary));
 }
 
+/// Thresholds as the map would hold them: 0.7 is reached by the nearest number of 32 bits to it,
+/// which lies below.
+template <int Dim>
+std::vector<double> as_stored(const PixelField<Dim>& map, std::vector<double> thresholds) {
+  if (!map.single_precision) return thresholds;
+  for (double& threshold : thresholds) threshold = static_cast<float>(threshold);
+  return thresholds;
+}
+
 /// Measures at quantiles first as at any thresholds: none is reached where no pixel has a value.
 std::vector<double> thresholds_at(std::vector<double> levels) {
   for (double& level : levels) {
@@ -160,20 +168,24 @@ void append_spot(const HotSpot<Dim>& spot, double threshold, double pixel, const
   for (const bool winds : spot.winds) columns[8].integers.push_back(winds ? 1 : 0);
 }
 
-}  // namespace
-
-double map_scale(const MorphologyField& what, std::span<const double> values,
-                 MPI_Comm communicator) {
-  double scale = 0.0;
-  for (const double threshold : what.thresholds) scale = std::max(scale, std::abs(threshold));
-  if (scale > 0.0) return scale;
-  for (const double value : values) {
-    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+/// The list of hot spots at every one of the thresholds.
+template <int Dim>
+void append_spots(const PixelField<Dim>& map, std::size_t field,
+                  const std::vector<double>& thresholds, const Vector<Dim>& shift,
+                  MPI_Comm communicator, MorphologyRecord& record) {
+  if (thresholds.empty()) return;
+  record.spot_columns = spot_columns<Dim>(record.unit);
+  const std::vector<double> reached = as_stored(map, thresholds);
+  for (std::size_t k = 0; k < thresholds.size(); ++k) {
+    const auto spots = find_hot_spots<Dim>(map, field, reached[k], Joining::corners, communicator);
+    for (const HotSpot<Dim>& spot : spots) {
+      append_spot(spot, thresholds[k], map.layout.pixel_size, shift, record.spot_columns);
+    }
+    record.spots += spots.size();
   }
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &scale, 1, MPI_DOUBLE, MPI_MAX, communicator),
-            "MPI_Allreduce");
-  return scale > 0.0 ? scale : 1.0;
 }
+
+}  // namespace
 
 template <int Dim>
 MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const MorphologyField& what,
@@ -182,7 +194,7 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
   MorphologyRecord record;
   record.field = what.name;
   record.unit = unit;
-  record.threshold = what.thresholds;
+  record.threshold = as_stored(map, what.thresholds);
   std::vector<double> levels;
   if (!what.quantiles.empty()) {
     levels = quantiles<Dim>(map, field, what.quantiles, communicator);
@@ -198,14 +210,8 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
     append_domains(count_domains<Dim>(map, field, record.threshold, Joining::corners, communicator),
                    record);
   }
-  if (!what.hot_spots.empty()) record.spot_columns = spot_columns<Dim>(unit);
-  for (const double threshold : what.hot_spots) {
-    const auto spots = find_hot_spots<Dim>(map, field, threshold, Joining::corners, communicator);
-    for (const HotSpot<Dim>& spot : spots) {
-      append_spot(spot, threshold, map.layout.pixel_size, shift, record.spot_columns);
-    }
-    record.spots += spots.size();
-  }
+  append_spots(map, field, what.hot_spots, shift, communicator, record);
+  record.threshold = what.thresholds;
   if (!what.quantiles.empty()) use_shares(what.quantiles, levels, record);
   return record;
 }

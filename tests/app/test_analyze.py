@@ -124,8 +124,8 @@ class Snapshots(program.ProgramTest):
         material = int(shares["temperature/pixels"][0])
         for p, level, white in zip((0.2, 0.5, 0.9), shares["temperature/level"][0], shares["temperature/F"][0]):
             self.assertGreaterEqual(white, material - numpy.ceil(p * material) + 1)
-            above = level + 0.01  # the values of a map are rounded on a scale that goes with its thresholds
-            self.succeed("analyze", snapshot, "--thresholds", f"{above}", "--output", f"above{p}")
+            above = float(numpy.nextafter(level, numpy.inf))
+            self.succeed("analyze", snapshot, "--thresholds", repr(above), "--output", f"above{p}")
             hotter = program.datasets(self.folder / f"above{p}/morphology.h5")["temperature/F"][0, 0]
             self.assertLessEqual(hotter, material - numpy.ceil(p * material))
         numpy.testing.assert_allclose(shares["temperature/L_physical"], shares["temperature/L"] / pixel, rtol=1e-15)
@@ -208,6 +208,28 @@ class Arrays(program.ProgramTest):
             self.succeed("analyze", f"{kind}.npy", "--thresholds", "50,80", "--output", kind)
             found = program.datasets(self.folder / kind / "morphology.h5")
             numpy.testing.assert_array_equal(found["array/F"][0], [(image >= 50).sum(), (image >= 80).sum()])
+
+    def test_equal_to_a_threshold_is_white(self):
+        """Tenths, of which most are no binary numbers: in any type and however the thresholds are written."""
+        tenths = numpy.arange(110).reshape(10, 11) % 11
+        expected = [(tenths >= k).sum() for k in range(1, 11)]
+        levels = ",".join(f"{k / 10:g}" for k in range(1, 11))
+        for kind in ("f4", "f8"):
+            image = (tenths / 10).astype(kind)
+            numpy.save(self.folder / f"tenths_{kind}.npy", image)
+            with h5py.File(self.folder / f"tenths_{kind}.h5", "w") as file:
+                file["map"] = image
+            for name in (f"tenths_{kind}.npy", f"tenths_{kind}.h5:/map"):
+                for number, written in enumerate((levels, "0.1:1:0.1")):
+                    output = f"equal_{name.replace('/', '_')}_{number}"
+                    self.succeed("analyze", name, "--thresholds", written, "--hot-spots", levels, "--field", "map",
+                                 "--output", output, "--isoline")
+                    found = program.datasets(self.folder / output / "morphology.h5")
+                    numpy.testing.assert_array_equal(found["map/F"][0], expected, err_msg=output)
+                    numpy.testing.assert_array_equal(found["map/threshold"], numpy.arange(1, 11) / 10)
+                    spots = found["map/domains/threshold"]
+                    areas = [found["map/domains/pixels"][spots == k / 10].sum() for k in range(1, 11)]
+                    self.assertEqual(areas, expected)
 
     def test_voxels(self):
         image = random_image((9, 7, 8), 5)

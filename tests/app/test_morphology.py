@@ -11,6 +11,69 @@ DOMAINS = ("--set", "morphology.domains=true",
            "--set", "morphology.hot_spots={ temperature = [600, 800] }")
 
 
+class Independence(program.ProgramTest):
+    """What is asked of a map has no part in it."""
+
+    # The scene's fields with thresholds near, at and far from what occurs.
+    ASKED = {"near": ("[299, 300, 310, 500]", "[1e6, 5e9]"), "far": ("[299, 300, 1e9]", "[1e6]"),
+             "at": ("{ from = 300, to = 900, step = 100 }", "[0, 1e6, 1e30]"),
+             "more": ("{ from = 300, to = 1000, step = 100 }", "[-1e9, 1e6]")}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS)
+        for name, (temperature, pressure) in cls.ASKED.items():
+            cls.run_scene("porous.toml", name, "--set", "time.end=10e-9", "--set",
+                          f"morphology.thresholds={{ temperature = {temperature}, pressure = {pressure} }}",
+                          "--set", "morphology.hot_spots={ pressure = [1e6, 5e9] }", "--set", "morphology.domains=true")
+        cls.found = {name: program.datasets(cls.folder / name / "morphology.h5") for name in cls.ASKED}
+
+    def test_same_map(self):
+        last = [sorted((self.folder / name).glob("snapshot_*.h5"))[-1] for name in self.ASKED]
+        for field in ("temperature", "pressure"):
+            maps = [program.datasets(path)[f"map/{field}"] for path in last]
+            for other in maps[1:]:
+                self.assertTrue(program.same_bits(maps[0], other), field)
+        self.assertGreater(numpy.nanmax(maps[0]), 10e9)
+
+    def test_same_curves_where_asked_the_same(self):
+        for field, level in (("temperature", 300.0), ("pressure", 1e6)):
+            for name in ("F", "E", "V", "L", "chi", "chi_paper", "n_W"):
+                columns = [data[f"{field}/{name}"][:, data[f"{field}/threshold"] == level] for data in self.found.values()]
+                for other in columns[1:]:
+                    numpy.testing.assert_array_equal(columns[0], other, err_msg=f"{field} {name}")
+        # At rest all of it is at T0, which is 300 K.
+        numpy.testing.assert_array_equal(self.found["at"]["temperature/A"][0, 0], 1.0)
+        numpy.testing.assert_array_equal(self.found["far"]["temperature/A"][0], [1.0, 1.0, 0.0])
+
+    def test_same_hot_spots(self):
+        spots = {name: data["pressure/domains/peak"] for name, data in self.found.items()}
+        for other in spots.values():
+            self.assertTrue(program.same_bits(spots["near"], other))
+        self.assertGreater((self.found["far"]["pressure/domains/threshold"] == 5e9).sum(), 0)
+
+    def test_a_snapshot_gives_the_same_whatever_is_asked(self):
+        snapshot = "far/snapshot_000004.h5"
+        self.succeed("analyze", snapshot, "--field", "pressure", "--thresholds", "1e6", "--output", "low")
+        self.succeed("analyze", snapshot, "--field", "pressure", "--thresholds", "1e6,1e15", "--output", "high")
+        low, high = (program.datasets(self.folder / name / "morphology.h5") for name in ("low", "high"))
+        self.assertEqual(low["pressure/chi"][0, 0], high["pressure/chi"][0, 0])
+        self.assertEqual(low["pressure/F"][0, 0], self.found["far"]["pressure/F"][-1, 0])
+
+    def test_rest_in_single_precision(self):
+        """T0 = 298.15 K is no number of 32 bits; the map of a body at rest still reaches it."""
+        self.run_scene("porous.toml", "single", "--set", "time.end=5e-9", "--set", "output.precision=single",
+                       "--set", "loading.velocity=0", "--set", "material.0.T0=298.15", "--set",
+                       "morphology.thresholds={ temperature = [298.15], pressure = [1e9] }")
+        self.succeed("analyze", "single/snapshot_000000.h5", "--thresholds", "298.15", "--output", "rest")
+        rest = program.datasets(self.folder / "rest/morphology.h5")
+        stored = program.particles(self.folder / "single/snapshot_000000.h5")["temperature"]
+        self.assertEqual(set(stored), {numpy.float32(298.15)})
+        self.assertEqual(rest["temperature/A"][0, 0], 1.0)
+        self.assertEqual(program.datasets(self.folder / "single/morphology.h5")["temperature/A"][0, 0], 1.0)
+
+
 class Domains(program.ProgramTest):
     @classmethod
     def setUpClass(cls):

@@ -103,9 +103,8 @@ void deposit(benchmark::State& state) {
     }
   }
   const PixelSources<2> particles{{x, y}, mass, density};
-  const std::vector<PixelValues> values = {{value, 1.0}};
   for (auto _ : state) {
-    auto map = poreshock::deposit<2>(particles, values, {1.0, 2.0}, grid);
+    auto map = poreshock::deposit<2>(particles, {value}, {1.0, 2.0}, grid);
     benchmark::DoNotOptimize(map.values.data());
   }
   state.counters["Mparticle/s"] = benchmark::Counter(

@@ -11,6 +11,7 @@
 
 namespace poreshock::reference {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Pixels of 1/4 m, so that all numbers are exact.
@@ -49,8 +50,7 @@ PixelField<Dim> deposit_cloud(const Cloud<Dim>& cloud, const PixelScales& scales
   for (std::size_t axis = 0; axis < Dim; ++axis) sources.position[axis] = cloud.position[axis];
   sources.mass = cloud.mass;
   sources.density = cloud.density;
-  const PixelValues values[] = {{cloud.value, 2.0}, {cloud.other, 1000.0}};
-  return deposit<Dim>(sources, values, scales, grid);
+  return deposit<Dim>(sources, {cloud.value, cloud.other}, scales, grid);
 }
 
 /// Irregular particles with sides of 0.3 to 1.6 pixels, some beyond the map.

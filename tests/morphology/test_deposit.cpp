@@ -80,10 +80,10 @@ TEST(Deposit, CountsWhatItCutsHoldsAndSkips) {
   const PixelGrid<2> grid = serial_grid(8, 8, false);
   Cloud<2> cloud;
   const double x = 4.0 * pixel;
-  cloud.add({x, x}, 4.0 * pixel, 1024.0, 1.0, 0.0);   // cut to two pixels
-  cloud.add({x, x}, pixel, 1024.0, 5000.0, -3e6);     // both values out of range
-  cloud.add({x, x}, pixel, 1024.0, nan_value, 0.0);   // value becomes 0
-  cloud.add({x, x}, pixel, 65.0 * 1024.0, 1.0, 0.0);  // density out of range
+  cloud.add({x, x}, 4.0 * pixel, 1024.0, 1.0, 0.0);  // cut to two pixels
+  cloud.add({x, x}, pixel, 1024.0, infinity, -infinity);
+  cloud.add({x, x}, pixel, 1024.0, nan_value, 1e300);  // a large value is one like any other
+  cloud.add({x, x}, pixel, 65.0 * 1024.0, 1.0, 0.0);   // density out of range
   cloud.add({nan_value, x}, pixel, 1024.0, 1.0, 0.0);
   cloud.add({x, 1e300}, pixel, 1024.0, 1.0, 0.0);
   cloud.add({x, x}, 0.0, 1024.0, 1.0, 0.0);
@@ -96,12 +96,17 @@ TEST(Deposit, CountsWhatItCutsHoldsAndSkips) {
             (4 + 3) * full_coverage);
 }
 
-TEST(Deposit, ValuesOutOfRangeAreHeldAtTheirLimit) {
+TEST(Deposit, ValuesThatAreNotFiniteAreHeld) {
   Cloud<2> cloud;
-  cloud.add({0.5 * pixel, 0.5 * pixel}, pixel, 1024.0, 1e30, -1e30);
-  const PixelField<2> map = deposit_cloud(cloud, exact_scales, serial_grid(1, 1, false));
-  EXPECT_EQ(map.values[0][0], 2048.0 * 2.0);
-  EXPECT_EQ(map.values[1][0], -2048.0 * 1000.0);
+  cloud.add({0.5 * pixel, 0.5 * pixel}, pixel, 1024.0, infinity, -infinity);
+  cloud.add({1.5 * pixel, 0.5 * pixel}, pixel, 1024.0, nan_value, -1.25);
+  cloud.add({2.5 * pixel, 0.5 * pixel}, pixel, 1024.0, -4096.1, 0.0);
+  const PixelField<2> map = deposit_cloud(cloud, exact_scales, serial_grid(3, 1, false));
+  EXPECT_EQ(map.values[0][0], 4096.1);
+  EXPECT_EQ(map.values[1][0], -1.25);
+  EXPECT_EQ(map.values[0][1], 0.0);
+  EXPECT_EQ(map.values[0][2], -4096.1);
+  EXPECT_EQ(map.clamped, 3);
 }
 
 TEST(Deposit, TotalCoverageIsTheTotalArea) {
@@ -121,20 +126,53 @@ TEST(Deposit, TotalCoverageIsTheTotalArea) {
   EXPECT_NEAR(static_cast<double>(total), area * static_cast<double>(full_coverage), 8.0 * 1000.0);
 }
 
-TEST(Deposit, UniformFieldStaysUniformToTheLastBit) {
+/// Fills all material with one value each of the two fields and expects them in every pixel; a
+/// particle in the last row holds other ones.
+void expect_uniform(double value, double other, double far_value) {
   Random random{32};
   Cloud<2> cloud = random_cloud<2>({16, 16}, 1500, random);
-  std::fill(cloud.value.begin(), cloud.value.end(), 1.5);
-  std::fill(cloud.other.begin(), cloud.other.end(), 875.0);
-  const PixelField<2> map = deposit_cloud(cloud, exact_scales, serial_grid(16, 16, false));
+  std::fill(cloud.value.begin(), cloud.value.end(), value);
+  std::fill(cloud.other.begin(), cloud.other.end(), other);
+  cloud.add({8.0 * pixel, 19.5 * pixel}, pixel, 1024.0, far_value, -far_value);
+  const PixelField<2> map = deposit_cloud(cloud, exact_scales, serial_grid(16, 20, false));
   std::int64_t solid = 0;
-  for (std::size_t p = 0; p < map.coverage.size(); ++p) {
+  for (std::size_t p = 0; p < 16 * 16; ++p) {
     if (map.solid[p] == 0) continue;
     ++solid;
-    ASSERT_EQ(map.values[0][p], 1.5);
-    ASSERT_EQ(map.values[1][p], 875.0);
+    ASSERT_EQ(map.values[0][p], value);
+    ASSERT_EQ(map.values[1][p], other);
   }
   EXPECT_GT(solid, 200);
+}
+
+TEST(Deposit, UniformFieldKeepsItsValueToTheLastBit) {
+  expect_uniform(1.5, 875.0, 0.0);
+  expect_uniform(300.0, 298.15, 1e9);
+  expect_uniform(-1.0 / 3.0, 47.3e9, 1e-5);
+  expect_uniform(1e-300, -5e-324, 0.0);
+  expect_uniform(-1.7e308, 1.7976931348623157e308, 1.0);
+  expect_uniform(0.1, -7.7e-13, 1e200);
+}
+
+TEST(Deposit, MeanLiesAmongTheValuesInThePixel) {
+  Random random{37};
+  Cloud<2> cloud = random_cloud<2>({16, 16}, 1500, random);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.value[i] = 298.15 + 1e-13 * random.uniform();
+    cloud.other[i] = i % 2 == 0 ? 1e6 : 1.0000001e6;
+  }
+  // Far hotter than all the rest, in a corner: it may not drag the others with it.
+  cloud.add({16.5 * pixel, 16.5 * pixel}, pixel, 1024.0, 1e20, 1e20);
+  const PixelField<2> map = deposit_cloud(cloud, exact_scales, serial_grid(17, 17, false));
+  for (std::size_t row = 0; row < 15; ++row) {
+    for (std::size_t p = 17 * row; p < 17 * row + 15; ++p) {
+      if (map.solid[p] == 0) continue;
+      ASSERT_GE(map.values[0][p], 298.15);
+      ASSERT_LE(map.values[0][p], 298.15 + 1e-13);
+      ASSERT_GE(map.values[1][p], 1e6);
+      ASSERT_LE(map.values[1][p], 1.0000001e6);
+    }
+  }
 }
 
 TEST(Deposit, MeanAgreesWithFloatingPointSums) {
@@ -159,11 +197,11 @@ TEST(Deposit, MeanAgreesWithFloatingPointSums) {
       }
       const auto p = static_cast<std::size_t>(row * 6 + column);
       // Every part is rounded by at most 2^-19, and a wrong weight moves the mean of values that
-      // differ by at most 4; values themselves are rounded to 2 x 2^-21.
+      // differ by at most 4; values themselves are rounded down to 2 x 2^-31.
       const double rounding = parts * 0x1p-19;
       EXPECT_NEAR(static_cast<double>(map.coverage[p]) / full_coverage, covered, rounding);
       if (map.solid[p] == 0) continue;
-      const double tolerance = 4.0 * rounding / (weights / 1024.0) + 0x1p-20;
+      const double tolerance = 4.0 * rounding / (weights / 1024.0) + 0x1p-30;
       EXPECT_NEAR(map.values[0][p], sum / weights, tolerance);
     }
   }

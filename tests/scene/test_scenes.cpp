@@ -160,11 +160,11 @@ TEST(Scenes, Thresholds) {
   EXPECT_EQ(levels("[1, 2.5, 3]"), (std::vector<double>{1.0, 2.5, 3.0}));
   EXPECT_EQ(levels("{ from = 300, to = 330, step = 10 }"),
             (std::vector<double>{300.0, 310.0, 320.0, 330.0}));
-  // 0.1 + 2 x 0.1 is not 0.3 in binary: `to` must not be lost, and no threshold lies beyond it.
-  EXPECT_EQ(levels("{ from = 0.1, to = 0.3, step = 0.1 }"),
-            (std::vector<double>{0.1, 0.1 + 0.1, 0.1 + 2 * 0.1}));
-  EXPECT_EQ(levels("{ from = 0, to = 1, step = 0.3 }"),
-            (std::vector<double>{0.0, 0.3, 0.6, 3 * 0.3}));
+  // 0.1 + 2 x 0.1 is more than 0.3 in binary: a value of 0.3 would not reach it.
+  EXPECT_EQ(levels("{ from = 0.1, to = 0.3, step = 0.1 }"), (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_EQ(levels("{ from = 0, to = 1, step = 0.3 }"), (std::vector<double>{0.0, 0.3, 0.6, 0.9}));
+  EXPECT_EQ(levels("{ from = 298.15, to = 298.45, step = 0.1 }"),
+            (std::vector<double>{298.15, 298.25, 298.35, 298.45}));
   EXPECT_EQ(levels("{ from = 5, to = 5, step = 1 }"), std::vector<double>{5.0});
   EXPECT_EQ(levels("{ speed = { from = 1, to = 2, step = 1 } }"), (std::vector<double>{1.0, 2.0}));
 

@@ -3,7 +3,8 @@
 // pixel takes the mass-weighted mean of the parts of the particles that lie in it.
 //
 // The same particles give the same bits on any number of ranks and in any order: every contribution
-// is rounded to an integer that depends on its particle alone, and integers are added.
+// is rounded to an integer that depends on its particle and the largest value of all, and integers
+// are added.
 
 #include <mpi.h>
 #include <petscdmda.h>
@@ -69,12 +70,6 @@ struct PixelSources {
   std::span<const double> density;                    ///< kg/m^3
 };
 
-/// One value per particle. Values are rounded to scale x 2^-20 and held to |value| <= 2048 scale.
-struct PixelValues {
-  std::span<const double> value;
-  double scale = 1.0;  ///< a typical value, in the unit of the value
-};
-
 /// Scales of a deposit.
 struct PixelScales {
   double density = 1.0;   ///< kg/m^3, a typical density; weights resolve 2^-18 of it
@@ -89,10 +84,12 @@ struct PixelField {
   bool first = false;                       ///< the lowest rows of the map are here
   bool last = false;                        ///< the highest rows of the map are here
   std::vector<std::vector<double>> values;  ///< per field (rows + 1) x row size; NaN in void pixels
+  bool single_precision = false;            ///< the values come from numbers of 32 bits
   std::vector<std::uint8_t> solid;          ///< (rows + 1) x row size, 1 = material, 0 = void
   std::vector<std::int64_t> coverage;       ///< owned rows: covered area in 2^-18 pixels
   std::int64_t capped = 0;   ///< particles, on all ranks, whose square was cut to max_side
-  std::int64_t clamped = 0;  ///< particle values or densities, on all ranks, held to their range
+  std::int64_t clamped = 0;  ///< particles' values that were not finite, and densities out of
+                             ///< range, on all ranks
   std::int64_t skipped = 0;  ///< particles, on all ranks, without positive finite size and density,
                              ///< or 2^31 pixels and more from the origin
 };
@@ -100,15 +97,18 @@ struct PixelField {
 /// Coverage of one whole pixel in PixelField::coverage.
 inline constexpr std::int64_t full_coverage = std::int64_t{1} << 18;
 
-/// Deposits any number of values of the same particles at once. Each particle is a square of side
-/// (mass / density)^(1/Dim) centred on it, at most max_side; what lies outside the map is dropped.
-/// A pixel is solid when it is covered by half or more, counting overlaps twice; its value is the
-/// mean weighted with density times covered area. Throws InputError for columns of unequal length
-/// or scales that are not positive, StateError when more than 16384 typical densities pile up in
-/// one pixel (on every rank then). Collective; particles may lie on any rank, ghost row filled on
-/// return.
+/// Deposits any number of fields of the same particles at once; `columns` has a value per particle
+/// of each. Each particle is a square of side (mass / density)^(1/Dim) centred on it, at most
+/// max_side; what lies outside the map is dropped. A pixel is solid when it is covered by half or
+/// more, counting overlaps twice; its value is the mean weighted with density times covered area,
+/// rounded to 2^-30 of the largest finite value of the field and never outside the values of the
+/// particles in the pixel, so that equal ones are kept to the bit. An infinite value counts as the
+/// largest finite one, NaN as 0. Throws InputError for columns of unequal length or scales that are
+/// not positive, StateError when more than 16384 typical densities pile up in one pixel (on every
+/// rank then). Collective; particles may lie on any rank, ghost row filled on return.
 template <int Dim>
-PixelField<Dim> deposit(const PixelSources<Dim>& particles, std::span<const PixelValues> values,
+PixelField<Dim> deposit(const PixelSources<Dim>& particles,
+                        const std::vector<std::span<const double>>& columns,
                         const PixelScales& scales, const PixelGrid<Dim>& grid);
 
 /// The block of one field, for count_pixels or count_voxels; valid as long as `map` lives.

@@ -14,9 +14,10 @@ struct StoredArray {
   std::string file;
   std::string dataset;  ///< of an HDF5 file; empty for .npy
   std::vector<std::uint64_t> shape;
-  std::string unit = "1";        ///< of an HDF5 dataset that says so
-  std::string number;            ///< .npy: type of a number, for example "f8"
-  std::uint64_t data_begin = 0;  ///< .npy: first byte of the numbers
+  bool single_precision = false;  ///< numbers of 32 bits with a fraction
+  std::string unit = "1";         ///< of an HDF5 dataset that says so
+  std::string number;             ///< .npy: type of a number, for example "f8"
+  std::uint64_t data_begin = 0;   ///< .npy: first byte of the numbers
 
   std::uint64_t row_size() const {
     std::uint64_t result = 1;

@@ -3,8 +3,6 @@
 
 #include <mpi.h>
 
-#include <span>
-
 #include "poreshock/core/tensor.hpp"
 #include "poreshock/morphology/pixel_map.hpp"
 #include "poreshock/output/morphology_file.hpp"
@@ -12,13 +10,8 @@
 
 namespace poreshock {
 
-/// Scale of the values of particles on a map of the field: the largest threshold by size, or, with
-/// quantiles or nothing but zeros, the largest finite value by size on all ranks; 1 without one.
-/// Collective.
-double map_scale(const MorphologyField& what, std::span<const double> values,
-                 MPI_Comm communicator);
-
-/// Counts and functionals of field number `field` of the map at the thresholds of `what`. With
+/// Counts and functionals of field number `field` of the map at the thresholds of `what`; where the
+/// map comes from numbers of 32 bits, thresholds are rounded to such before they are compared. With
 /// quantiles the thresholds of the record are these shares, its curve "level" has the values of the
 /// field there (NaN, and nothing hot, where no pixel has a value). With morphology.domains the
 /// numbers of domains and chi_paper = (n_W - n_B)/N, and the hot spots at what.hot_spots. Positions
