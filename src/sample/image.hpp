@@ -10,13 +10,14 @@ namespace poreshock {
 /// Values of an image, top row first as in the file.
 struct Image {
   std::int64_t columns = 0, rows = 0;
-  std::vector<std::int64_t> value;
+  std::vector<std::int64_t> value;  ///< -1 where the image is transparent
 };
 
-/// Reads a PNG file (grey, palette or colour, up to 16 bits; transparency is ignored) or a PGM file
-/// (P2, P5). A grey pixel has its grey value as stored; a coloured one red x 2^32 + green x 2^16 +
-/// blue as a label, or with `grey` its luminance (0.299 R + 0.587 G + 0.114 B, rounded down).
-/// Throws InputError that names the file, what was found and what is allowed. Not collective.
+/// Reads a PNG file (grey, palette or colour, up to 16 bits) or a PGM file (P2, P5). A grey pixel
+/// has its grey value as stored; one of a palette its number there, a coloured one red x 2^32 +
+/// green x 2^16 + blue as a label; with `grey` both have their luminance (0.299 R + 0.587 G + 0.114
+/// B, rounded down). A pixel less than half opaque is transparent. Throws InputError that names the
+/// file, what was found and what is allowed. Not collective.
 Image read_image(const std::string& path, bool grey);
 
 }  // namespace poreshock

@@ -66,8 +66,8 @@ void require_extent(const Scene& scene, const Image& image, int axis) {
       (height ? "sample.height" : "domain.size") + " or sample.pixel.");
 }
 
-/// The image with its lowest row first and 0 for void; solid pixels keep their label, or have 1
-/// where a threshold tells.
+/// The image with its lowest row first and 0 for void, which what is transparent is too; solid
+/// pixels keep their label, or have 1 where a threshold tells.
 Image solid_pixels(const Sample& sample) {
   const Image read = read_image(sample.image, sample.threshold.has_value());
   Image image = read;
@@ -75,8 +75,10 @@ Image solid_pixels(const Sample& sample) {
     for (std::int64_t x = 0; x < image.columns; ++x) {
       const std::int64_t value =
           read.value[static_cast<std::size_t>((image.rows - 1 - y) * image.columns + x)];
-      const bool solid =
+      const bool opaque = value >= 0;
+      const bool marked =
           sample.threshold ? static_cast<double>(value) >= *sample.threshold : value != 0;
+      const bool solid = opaque && marked;
       image.value[static_cast<std::size_t>(y * image.columns + x)] =
           !solid ? 0 : (sample.threshold ? 1 : value);
     }

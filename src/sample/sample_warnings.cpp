@@ -119,10 +119,32 @@ void warn_grains(const Scene& scene, const SampleReport& report,
   }
 }
 
+/// What tells solid from void and one grain from the other may have been read otherwise than meant.
+void warn_image(const Scene& scene, const SampleReport& report,
+                std::vector<std::string>& warnings) {
+  if (scene.sample.kind != SampleKind::image) return;
+  const std::string image = "sample.image: " + scene.sample.image + " came out as ";
+  if (report.geometric_void_fraction == 0.0) {
+    warnings.push_back(image + "solid all over. " +
+                       (scene.sample.threshold
+                            ? "Void is what is transparent or below sample.threshold; raise it."
+                            : "Void is what is transparent or has the label 0; give "
+                              "sample.threshold if grey values tell solid from void."));
+  } else if (report.grains.size() == 1) {
+    warnings.push_back(image + "one grain, so that there is no contact. " +
+                       (scene.sample.threshold
+                            ? "Pixels of sample.threshold or more that share a side are one grain; "
+                              "raise it, or give labels, to part grains."
+                            : "Pixels of one label that share a side are one grain; give every "
+                              "grain a label of its own to part them."));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> sample_warnings(const Scene& scene, const SampleReport& report) {
   std::vector<std::string> warnings;
+  warn_image(scene, report, warnings);
   warn_grains(scene, report, warnings);
   if (report.voids.empty()) return warnings;
   warn_resolution(scene, warnings);

@@ -1,68 +1,16 @@
-// Grains: packed, Voronoi, of images and of islands; their numbers, materials and errors.
+// Grains: packed, Voronoi and of islands; their numbers, materials and errors.
 #include <gtest/gtest.h>
 
 #include <map>
 #include <numbers>
 #include <set>
 
-#include "image_files.hpp"
-#include "poreshock/core/error.hpp"
-#include "poreshock/sample/fill.hpp"
-#include "sample_scenes.hpp"
+#include "filled.hpp"
 
 namespace poreshock {
 namespace {
 
-Scene grain_scene(SampleKind kind, double porosity, int dimension = 2) {
-  Scene scene = dimension == 2 ? testing::plane_scene(1e-3, porosity)
-                               : testing::space_scene(0.4e-3, porosity);
-  scene.sample.kind = kind;
-  scene.sample.void_radius = 0.0;
-  scene.sample.grain_radius = 60e-6;
-  scene.sample.grain_spread = 0.2;
-  return scene;
-}
-
-template <int Dim>
-struct Filled {
-  Particles<Dim> particles;
-  SampleReport report;
-};
-
-/// The whole sample filled range by range, as that many ranks do.
-template <int Dim>
-Filled<Dim> filled(const Scene& scene, int ranges = 1) {
-  Filled<Dim> all;
-  const std::int64_t layers = lattice_layers(scene);
-  for (int r = 0; r < ranges; ++r) {
-    Particles<Dim> part;
-    fill<Dim>(scene, {layers * r / ranges, layers * (r + 1) / ranges}, MPI_COMM_SELF, part,
-              all.report);
-    std::vector<std::uint32_t> every;
-    for (std::size_t p = 0; p < part.size(); ++p) every.push_back(static_cast<std::uint32_t>(p));
-    std::vector<std::byte> bytes;
-    pack(part, every, bytes);
-    unpack(bytes.data(), every.size(), all.particles);
-  }
-  return all;
-}
-
-std::string error_of(const Scene& scene) {
-  try {
-    Particles<2> particles;
-    SampleReport report;
-    fill<2>(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_words(const std::string& text, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' not in: " << text;
-  }
-}
+using namespace testing;
 
 /// Least distance between the surfaces of two grains, periodic in x.
 double least_distance(const Scene& scene, const std::vector<Grain>& grains) {
@@ -278,83 +226,6 @@ TEST(Islands, BecomeGrains) {
     EXPECT_NEAR(area[static_cast<int>(g) + 1], kept.report.grains[g].measure, 1e-18);
   }
   EXPECT_EQ(area.size(), kept.report.grains.size() + 1);
-}
-
-Scene image_scene(const std::string& file, double pixel) {
-  Scene scene = grain_scene(SampleKind::image, 0.0);
-  scene.domain.size = {4.0 * pixel, 8.0 * pixel, 0.0};
-  scene.domain.cell = 0.5 * pixel;
-  scene.domain.cells = {8, 16, 0};
-  scene.sample.height = 3.0 * pixel;
-  scene.sample.pixel = pixel;
-  scene.sample.image = file;
-  return scene;
-}
-
-/// Grain number at the centre of each pixel, top row first, 0 = void.
-std::vector<int> grain_picture(const Scene& scene) {
-  const Filled<2> made = filled<2>(scene);
-  std::vector<int> picture(12, 0);
-  for (std::size_t p = 0; p < made.particles.size(); ++p) {
-    const int x = static_cast<int>(made.particles.position[0][p] / scene.sample.pixel);
-    const int y = static_cast<int>(made.particles.position[1][p] / scene.sample.pixel);
-    picture[static_cast<std::size_t>((2 - y) * 4 + x)] = made.particles.grain[p];
-  }
-  EXPECT_EQ(made.particles.size() % 16, 0U);
-  return picture;
-}
-
-// One grain per connected region of a label; the ends of a row meet across the periodic side.
-TEST(ImageGrains, OneForEachConnectedRegion) {
-  const std::vector<int> labels = {7, 7, 0, 7,  //
-                                   0, 0, 0, 9,  //
-                                   7, 9, 9, 9};
-  const std::vector<int> periodic = {3, 3, 0, 3,  //
-                                     0, 0, 0, 2,  //
-                                     1, 2, 2, 2};
-  const std::vector<int> open = {3, 3, 0, 4,  //
-                                 0, 0, 0, 2,  //
-                                 1, 2, 2, 2};
-  for (const std::string& file : {testing::write_pgm("labels.pgm", 4, 3, labels),
-                                  testing::write_text_pgm("t.pgm", 4, 3, labels),
-                                  testing::write_png("labels.png", 4, 3, labels, 8),
-                                  testing::write_png("labels16.png", 4, 3, labels, 16)}) {
-    Scene scene = image_scene(file, 20e-6);
-    EXPECT_EQ(grain_picture(scene), periodic) << file;
-    scene.domain.periodic = {false, false};
-    EXPECT_EQ(grain_picture(scene), open) << file;
-  }
-}
-
-TEST(ImageGrains, ThresholdJoinsGreyValues) {
-  const std::vector<int> grey = {200, 90,  10,  120,  //
-                                 10,  30,  99,  10,   //
-                                 150, 100, 101, 255};
-  Scene scene = image_scene(testing::write_png("grey.png", 4, 3, grey, 8), 20e-6);
-  scene.sample.threshold = 100.0;
-  EXPECT_EQ(grain_picture(scene), (std::vector<int>{2, 0, 0, 2, 0, 0, 0, 0, 1, 1, 1, 1}));
-  EXPECT_NEAR(filled<2>(scene).report.geometric_void_fraction, 0.5, 1e-15);
-  scene.sample.threshold = 256.0;
-  expect_words(error_of(scene), {"grey.png", "no solid pixel", "sample.threshold"});
-}
-
-TEST(ImageGrains, BadImagesAreNamed) {
-  const auto refused = [](const std::string& file) { return error_of(image_scene(file, 20e-6)); };
-  expect_words(refused("absent.png"), {"sample.image: absent.png", "cannot be opened"});
-  expect_words(refused(testing::write_bytes("text.png", "no image")),
-               {"text.png", "neither a PNG nor a PGM file"});
-  const std::vector<int> labels(12, 5);
-  std::string bytes = testing::read_bytes(testing::write_png("cut.png", 4, 3, labels, 8));
-  testing::write_bytes("cut.png", bytes.substr(0, bytes.size() / 2));
-  expect_words(refused("cut.png"), {"cut.png", "damaged PNG file", "ends too early"});
-  testing::write_bytes("cut.pgm", "P5 4 3 255\nabc");
-  expect_words(refused("cut.pgm"), {"cut.pgm", "row 0, column 3"});
-  testing::write_bytes("high.pgm", "P2 2 2 15 1 2 3 16");
-  expect_words(refused("high.pgm"), {"high.pgm", "0 to 15", "row 1, column 1"});
-  testing::write_bytes("huge.pgm", "P5 100000 100000 255\n");
-  expect_words(refused("huge.pgm"), {"huge.pgm", "100000 x 100000"});
-  const std::string file = testing::write_png("small.png", 3, 3, std::vector<int>(9, 1), 8);
-  expect_words(refused(file), {"3 columns of sample.pixel = 2e-05 m", "8e-05 m", "domain.size"});
 }
 
 }  // namespace

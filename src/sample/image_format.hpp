@@ -1,0 +1,25 @@
+#pragma once
+// What the readers of the image formats share. Private to the layer.
+
+#include <cstdint>
+#include <string>
+
+#include "image.hpp"
+
+namespace poreshock {
+
+inline constexpr std::int64_t most_image_pixels = std::int64_t{1} << 28;
+
+/// Throws InputError with what was found and what is allowed.
+[[noreturn]] void refuse_image(const std::string& path, const std::string& found);
+
+/// Throws InputError unless there are pixels, and not too many.
+void require_image_size(const std::string& path, std::int64_t columns, std::int64_t rows);
+
+/// read_image for the bytes of a PNG file.
+Image read_png(const std::string& path, const std::string& bytes, bool grey);
+
+/// read_image for the bytes of a PGM file.
+Image read_pgm(const std::string& path, const std::string& bytes);
+
+}  // namespace poreshock
