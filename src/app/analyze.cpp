@@ -69,6 +69,7 @@ MapVoids parse_voids(const std::string& text) {
 }
 
 Request make_request(const AnalyzeOptions& options) {
+  require_length("--pixel", options.pixel);
   if (options.thresholds.empty() == options.quantiles.empty()) {
     throw InputError(
         "--thresholds: give FROM:TO:STEP or A,B,C in the unit of the field, or, and not both, "
@@ -98,7 +99,8 @@ struct Measured {
 
 /// Says what was cut, held or left out of a map.
 template <int Dim>
-std::string held_text(const PixelField<Dim>& map) {
+std::string held_text(const StoredMap<Dim>& stored) {
+  const PixelField<Dim>& map = stored.map;
   std::string text;
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += "  " + std::to_string(count) + " " + what + "\n";
@@ -108,6 +110,8 @@ std::string held_text(const PixelField<Dim>& map) {
       "particles have values that are not finite, or 64 times the density of the "
       "densest material; they were held");
   add(map.skipped, "particles without positive finite size, density and place were left out");
+  add(stored.unknown,
+      "pixels are material by the mask but have no value (NaN); they count as void");
   return text;
 }
 
@@ -117,7 +121,7 @@ Measured measure_map(StoredMap<Dim> stored, Request request, MPI_Comm communicat
   return {stored.stamp,
           measure<Dim>(stored.map, 0, request.what, stored.unit, request.settings, stored.shift,
                        communicator),
-          held_text(stored.map)};
+          held_text(stored)};
 }
 
 /// Arrays are numbered as they come; their time is that number.

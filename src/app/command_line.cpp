@@ -31,7 +31,8 @@ void declare_analyze(Command& command, CLI::App& app) {
                       "thresholds at which every hot spot is listed, written the same way");
   analyze->add_option("--field", options.field,
                       "field of a snapshot (default temperature), name of an array");
-  analyze->add_option("--mask", options.mask, "array, not zero = material (default: not NaN)");
+  analyze->add_option("--mask", options.mask,
+                      "array, not zero = material; NaN of the file is void in any case");
   analyze->add_option("--periodic", options.periodic, "lateral axes of an array that wrap: x, y");
   analyze->add_option("--pixel", options.pixel, "side of a pixel in metres");
   analyze->add_option("--output", options.output, "folder for morphology.h5");

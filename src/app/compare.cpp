@@ -73,7 +73,7 @@ RunData read_run(const std::string& path, const CompareOptions& options, MPI_Com
   run.process.threshold = curves.threshold;
   const auto level = curves.functionals.find("level");
   if (level != curves.functionals.end()) run.process.level = level->second;
-  const double ratio = options.length > 0.0 ? options.length / curves.pixel : 1.0;
+  const double ratio = options.length ? *options.length / curves.pixel : 1.0;
   double factor = 1.0;
   for (const std::string& name : functional_names(curves, options.chi, path)) {
     std::vector<double> values = curves.functionals.at(name);
@@ -106,7 +106,7 @@ void require_comparable(const RunData& reference, const RunData& run,
                      ": allowed are two runs of one kind; measure the snapshots of one again with "
                      "poreshock analyze --quantiles or --thresholds");
   }
-  if (run.pixel == reference.pixel || options.length > 0.0) return;
+  if (run.pixel == reference.pixel || options.length) return;
   char text[160];
   std::snprintf(text, sizeof(text), "%.6g m against %.6g m", run.pixel, reference.pixel);
   throw InputError(run.path + " has other pixels than " + reference.path + ", " + text +
@@ -213,7 +213,7 @@ void compare(const CompareOptions& options, MPI_Comm communicator) {
   if (options.time != "common" && options.time != "loading") {
     throw InputError("--time: found \"" + options.time + "\", allowed \"common\", \"loading\"");
   }
-  if (!(options.length >= 0.0)) throw InputError("--length: allowed a number > 0 (m)");
+  require_length("--length", options.length);
   const WindowChoice window = parse_window(options.window);
   const RunData reference = read_run(options.runs[0], options, communicator);
   Comparison comparison{options.runs[0],

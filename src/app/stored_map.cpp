@@ -35,27 +35,57 @@ PixelLayout<Dim> layout_of(const StoredArray& array, const AnalyzeOptions& optio
     if (extent > 0x7fffffff) throw InputError(array.file + ": too large along one axis");
     layout.pixels[axis] = static_cast<int>(extent);
   }
-  layout.pixel_size = options.pixel > 0.0 ? options.pixel : 1.0;
+  layout.pixel_size = options.pixel.value_or(1.0);
   layout.periodic = periodic_axes<Dim>(options.periodic);
   return layout;
 }
 
-/// 1 where the mask, or without one the value, says that there is material.
-std::vector<std::uint8_t> read_solid(const StoredArray& array, const std::string& mask_name,
-                                     const std::vector<double>& values, std::uint64_t first,
-                                     std::uint64_t rows, MPI_Comm communicator) {
-  std::vector<std::uint8_t> solid(values.size());
-  if (mask_name.empty()) {
-    for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = std::isnan(values[i]) ? 0 : 1;
-    return solid;
+/// Values of a map and where there is material, with the row of the upper neighbour.
+struct SolidValues {
+  std::vector<double> values;
+  std::vector<std::uint8_t> solid;
+  std::int64_t unknown = 0;  ///< material of the mask, on all ranks, without a value
+};
+
+/// Throws InputError when the owned pixels of no rank are material. Collective.
+void require_material(const SolidValues& map, std::size_t owned, const std::string& message,
+                      MPI_Comm communicator) {
+  const auto end = map.solid.begin() + static_cast<std::ptrdiff_t>(owned);
+  if (sum(std::int64_t{std::count(map.solid.begin(), end, 1)}, communicator) == 0) {
+    throw InputError(message);
   }
+}
+
+/// Finds material where there is a value and the mask, if any, is not zero; `owned` pixels of this
+/// rank come before those of its neighbour. Collective.
+void find_solid(const StoredArray& array, const std::string& mask_name, RowRange rows,
+                std::size_t owned, MPI_Comm communicator, SolidValues& map) {
+  for (const double value : map.values) map.solid.push_back(std::isnan(value) ? 0 : 1);
+  require_material(map, owned, array.name() + ": found nothing but NaN, allowed are numbers",
+                   communicator);
+  if (mask_name.empty()) return;
   const StoredArray mask = find_array(mask_name, communicator);
   if (mask.shape != array.shape) {
     throw InputError("--mask: " + mask_name + " has another shape than " + array.file);
   }
-  const std::vector<double> flags = read_rows(mask, first, rows, communicator);
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = flags[i] != 0.0 ? 1 : 0;
-  return solid;
+  const std::vector<double> flags = read_rows(mask, rows.first, rows.count, communicator);
+  std::int64_t doubtful = 0;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    doubtful += i < owned && std::isnan(flags[i]) ? 1 : 0;
+    map.unknown += i < owned && flags[i] != 0.0 && map.solid[i] == 0 ? 1 : 0;
+    map.solid[i] = flags[i] != 0.0 ? map.solid[i] : 0;
+  }
+  doubtful = sum(doubtful, communicator);
+  map.unknown = sum(map.unknown, communicator);
+  if (doubtful > 0) {
+    throw InputError("--mask: " + mask_name + " has " + std::to_string(doubtful) +
+                     " NaN, allowed are 0 for void and other numbers for material");
+  }
+  require_material(map, owned,
+                   "--mask: " + mask_name +
+                       " leaves no pixel with a value; allowed are 0 for void " +
+                       "and other numbers for material, at least one",
+                   communicator);
 }
 
 /// One column of numbers of the particles of this rank.
@@ -116,7 +146,7 @@ PixelLayout<Dim> layout_of(const Scene& scene, double pixel) {
   layout.pixel_size = pixel;
   for (int a = 0; a < Dim; ++a) {
     const double pixels = scene.domain.size[a] / pixel;
-    if (!(std::round(pixels) >= 1.0) ||
+    if (!(std::round(pixels) >= 1.0 && pixels < 0x1p31) ||
         std::abs(pixels - std::round(pixels)) > 1e-9 * std::round(pixels)) {
       throw InputError("--pixel: allowed are whole parts of the domain, which is " +
                        std::to_string(scene.domain.size[a] * 1e6) + "e-6 m along an axis");
@@ -140,14 +170,16 @@ StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& opti
   map.rows = grid.rows();
   map.first = grid.first_row() == 0;
   map.last = grid.first_row() + grid.rows() == map.layout.pixels[Dim - 1];
-  const auto first = static_cast<std::uint64_t>(grid.first_row());
-  const auto rows = static_cast<std::uint64_t>(map.rows) + (map.last ? 0U : 1U);
-  std::vector<double> values = read_rows(array, first, rows, communicator);
-  map.solid = read_solid(array, options.mask, values, first, rows, communicator);
-  const std::size_t stored = (static_cast<std::size_t>(map.rows) + 1) * grid.row_size();
-  values.resize(stored, std::nan(""));
-  map.solid.resize(stored, 0);
-  map.values = {std::move(values)};
+  const RowRange rows = {static_cast<std::uint64_t>(grid.first_row()),
+                         static_cast<std::uint64_t>(map.rows) + (map.last ? 0U : 1U), 0};
+  const std::size_t owned = static_cast<std::size_t>(map.rows) * grid.row_size();
+  SolidValues read{read_rows(array, rows.first, rows.count, communicator), {}};
+  find_solid(array, options.mask, rows, owned, communicator, read);
+  result.unknown = read.unknown;
+  read.values.resize(owned + grid.row_size(), std::nan(""));
+  read.solid.resize(owned + grid.row_size(), 0);
+  map.values = {std::move(read.values)};
+  map.solid = std::move(read.solid);
   const std::string own = array.dataset.substr(array.dataset.rfind('/') + 1);
   result.field = !options.field.empty() ? options.field : own.empty() ? "array" : own;
   result.unit = array.unit;
@@ -161,13 +193,12 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   Hdf5File file = Hdf5File::open(path, communicator);
   const Scene scene = parse_scene(file.text("scene"), path);
   const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
-  const double own_pixel = scene.morphology.pixel;
-  if (sites && options.pixel > 0.0) {
+  if (sites && options.pixel) {
     throw InputError(
         "--pixel: the run measured on the lattice of its particles, which has pixels "
         "of its own");
   }
-  const double pixel = options.pixel > 0.0 ? options.pixel : own_pixel;
+  const double pixel = options.pixel.value_or(scene.morphology.pixel);
   const PixelGrid<Dim> grid(communicator, layout_of<Dim>(scene, pixel));
   StoredMap<Dim> result;
   result.field = options.field.empty() ? "temperature" : options.field;

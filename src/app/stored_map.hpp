@@ -23,10 +23,12 @@ struct StoredMap {
   std::string unit;
   RecordStamp stamp;  ///< of a snapshot; of an array all zero
   Vector<Dim> shift = Vector<Dim>::Zero();
+  std::int64_t unknown = 0;  ///< pixels that are material by the mask, but have no value
 };
 
-/// The map of an array: the last dimension is x, the first the shock axis. Without a mask NaN is
-/// void. Throws InputError when shapes do not fit. Collective.
+/// The map of an array: the last dimension is x, the first the shock axis. NaN is void, with a mask
+/// too. Throws InputError when shapes do not fit, when there is NaN in the mask, or no material.
+/// Collective.
 template <int Dim>
 StoredMap<Dim> map_of_array(const StoredArray& array, const AnalyzeOptions& options,
                             MPI_Comm communicator);

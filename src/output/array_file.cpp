@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "poreshock/output/hdf5_file.hpp"
 #include "poreshock/output/posix_file.hpp"
@@ -17,34 +19,60 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are read as they are stored");
 
-/// Value of a key of a .npy header, which is the text of a Python dictionary.
-std::string header_value(const std::string& header, const std::string& key) {
-  const std::size_t at = header.find("'" + key + "':");
-  if (at == std::string::npos) return "";
-  const std::size_t begin = header.find_first_not_of(' ', at + key.size() + 3);
-  const char close = header[begin] == '(' ? ')' : ',';
-  return header.substr(begin, header.find(close, begin) - begin);
+[[noreturn]] void refuse_header(const std::string& file, const std::string& found) {
+  throw InputError(file + ": its header is damaged, it has " + found +
+                   "; write it again with numpy.save(name, array)");
 }
 
-/// Extents in a text such as "(3, 4, ".
-std::vector<std::uint64_t> extents(const std::string& text) {
+/// Value of a key of a .npy header, which is the text of a Python dictionary; a list in brackets as
+/// a whole. Nothing when it is not there.
+std::optional<std::string> header_value(const std::string& header, const std::string& key) {
+  const std::size_t at = header.find("'" + key + "':");
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t begin = header.find_first_not_of(' ', at + key.size() + 3);
+  if (begin == std::string::npos) return std::nullopt;
+  const bool list = header[begin] == '(';
+  const std::size_t end = list ? header.find(')', begin) : header.find_first_of(",}", begin);
+  if (end == std::string::npos) return std::nullopt;
+  return header.substr(begin, end + (list ? 1 : 0) - begin);
+}
+
+/// Extents in a text such as "(3, 4)" or "(5,)"; nothing when it is another one.
+std::optional<std::vector<std::uint64_t>> extents(const std::string& text) {
   std::vector<std::uint64_t> shape;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] < '0' || text[i] > '9') continue;
-    std::size_t used = 0;
-    shape.push_back(std::stoull(text.substr(i), &used));
-    i += used;
+  const char* at = text.data() + 1;
+  const char* const end = text.data() + text.size() - 1;
+  if (text.size() < 2 || text.front() != '(' || text.back() != ')') return std::nullopt;
+  while (at != end) {
+    std::uint64_t extent = 0;
+    const auto read = std::from_chars(at, end, extent);
+    if (read.ec != std::errc{}) return std::nullopt;
+    shape.push_back(extent);
+    at = read.ptr;
+    if (at != end && *at != ',') return std::nullopt;
+    while (at != end && (*at == ',' || *at == ' ')) ++at;
   }
   return shape;
 }
 
-/// NumPy format 1.0 to 3.0: magic, version, length of the header, header, numbers.
-void read_npy_header(StoredArray& array) {
-  if (!std::filesystem::is_regular_file(array.file)) throw InputError(array.file + ": not found");
-  const FileDescriptor file(array.file, O_RDONLY);
+/// Whether a file of so many bytes has room for the numbers; the product may leave 64 bits.
+bool has_room(const StoredArray& array, std::uint64_t file_bytes) {
+  std::uint64_t room = (file_bytes - array.data_begin) / (array.number[1] - '0');
+  for (const std::uint64_t extent : array.shape) {
+    if (extent == 0) return true;
+    room /= extent;
+  }
+  return room > 0;
+}
+
+/// Text of the header of NumPy format 1.0 to 3.0: magic, version, length of the header, header.
+std::string read_header_text(const FileDescriptor& file, StoredArray& array) {
   unsigned char start[12] = {};
   if (file.size() >= 12) file.read(0, reinterpret_cast<std::byte*>(start), 12);
   if (std::memcmp(start, "\x93NUMPY", 6) != 0) throw InputError(array.file + ": not a .npy file");
+  if (start[6] < 1 || start[6] > 3) {
+    refuse_header(array.file, "the version " + std::to_string(start[6]) + ", allowed are 1 to 3");
+  }
   const bool old = start[6] == 1;
   std::uint64_t length = start[8] | (std::uint64_t{start[9]} << 8);
   if (!old) length |= (std::uint64_t{start[10]} << 16) | (std::uint64_t{start[11]} << 24);
@@ -52,24 +80,35 @@ void read_npy_header(StoredArray& array) {
   if (array.data_begin > file.size()) throw InputError(array.file + ": truncated");
   std::string header(length, ' ');
   file.read(old ? 10 : 12, reinterpret_cast<std::byte*>(header.data()), length);
-  const std::string type = header_value(header, "descr");
+  return header;
+}
+
+void read_npy_header(StoredArray& array) {
+  if (!std::filesystem::is_regular_file(array.file)) throw InputError(array.file + ": not found");
+  const FileDescriptor file(array.file, O_RDONLY);
+  const std::string header = read_header_text(file, array);
+  const auto type = header_value(header, "descr");
+  const auto columns_first = header_value(header, "fortran_order");
+  const auto shape = header_value(header, "shape");
+  if (!type) refuse_header(array.file, "no type of the numbers ('descr')");
+  if (!columns_first) refuse_header(array.file, "no order of the numbers ('fortran_order')");
+  if (!shape) refuse_header(array.file, "no extents ('shape')");
   const std::string kinds[] = {"f8", "f4", "i8", "i4", "i2", "i1", "u8", "u4", "u2", "u1", "b1"};
   for (const std::string& kind : kinds) {
-    if (type == "'<" + kind + "'" || type == "'|" + kind + "'") array.number = kind;
+    if (*type == "'<" + kind + "'" || *type == "'|" + kind + "'") array.number = kind;
   }
-  if (array.number.empty() || header_value(header, "fortran_order") != "False") {
-    throw InputError(array.file + ": found numbers of type " + type +
-                     (header_value(header, "fortran_order") == "False" ? "" : ", columns first") +
+  if (array.number.empty() || *columns_first != "False") {
+    throw InputError(array.file + ": found numbers of type " + *type +
+                     (*columns_first == "False" ? "" : ", columns first") +
                      "; allowed are little-endian f4, f8, i1 ... i8, u1 ... u8 and b1, rows first: "
                      "numpy.save(name, numpy.ascontiguousarray(array, dtype=\"f8\"))");
   }
   array.single_precision = array.number == "f4";
-  array.shape = extents(header_value(header, "shape"));
-  const std::uint64_t rows = array.shape.empty() ? 0 : array.shape[0];
-  const std::uint64_t bytes = static_cast<std::uint64_t>(array.number[1] - '0');
-  if (file.size() < array.data_begin + rows * array.row_size() * bytes) {
-    throw InputError(array.file + ": truncated, it is shorter than its header says");
-  }
+  const auto found = extents(*shape);
+  if (!found) refuse_header(array.file, "the extents " + *shape + ", allowed are some like (3, 4)");
+  array.shape = *found;
+  if (has_room(array, file.size())) return;
+  throw InputError(array.file + ": truncated, it is shorter than its header says");
 }
 
 template <class T>
@@ -116,10 +155,9 @@ StoredArray find_array(const std::string& name, MPI_Comm communicator) {
     array.dataset = name.substr(colon + 1);
     Hdf5File file = Hdf5File::open(array.file, communicator);
     const DatasetInfo info = file.dataset(array.dataset);
-    if (!info.type) {
-      throw InputError(name +
-                       ": allowed are numbers of type float64, float32, int64, int32 and "
-                       "uint8 (flags as uint8)");
+    if (!info.numbers) {
+      throw InputError(name + ": allowed are floating-point numbers of 32 and 64 bits, whole " +
+                       "numbers and flags");
     }
     array.single_precision = info.type == NumberType::float32;
     array.shape = info.shape;

@@ -20,6 +20,13 @@ std::optional<NumberType> number_type(hid_t dataset) {
   return std::nullopt;
 }
 
+/// Whether HDF5 makes numbers of it: ours, integers of any size, and flags (h5py: an enumeration).
+bool holds_numbers(hid_t dataset) {
+  const Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
+  const H5T_class_t kind = H5Tget_class(type.get());
+  return kind == H5T_INTEGER || kind == H5T_ENUM || number_type(dataset).has_value();
+}
+
 std::string read_text_attribute(hid_t attribute, hid_t type, const std::string& what) {
   if (H5Tis_variable_str(type) > 0) {
     const Handle memory(H5Tcopy(type), H5Tclose, what);
@@ -70,6 +77,7 @@ DatasetInfo read_info(hid_t file, const std::string& path) {
   DatasetInfo info;
   info.path = path;
   info.type = number_type(dataset.get());
+  info.numbers = holds_numbers(dataset.get());
   std::vector<hsize_t> shape(
       static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
   if (!shape.empty()) H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);

@@ -244,6 +244,99 @@ class Arrays(program.ProgramTest):
         self.assertEqual(len(found["noise/domains/pixels"]), found["noise/n_W"][0, 1])
         numpy.testing.assert_allclose(found["noise/domains/volume"], found["noise/domains/pixels"] * 8e-18, rtol=1e-12)
 
+    def test_flags_and_integers_of_hdf5(self):
+        image = numpy.random.default_rng(8).integers(0, 100, (12, 9))
+        solid = random_image(image.shape, 9) > 0.3
+        with h5py.File(self.folder / "kinds.h5", "w") as file:
+            for kind in ("i8", "i4", "i2", "i1", "u8", "u4", "u2", "u1", ">i2", ">f4", ">f8"):
+                file[f"map{kind}"] = image.astype(kind)
+            file["flags"] = solid
+            file["names"] = numpy.array(["a", "b"], dtype="S1")
+            names = [name for name in file if name.startswith("map")]
+        for name in names:
+            self.succeed("analyze", f"kinds.h5:/{name}", "--thresholds", "50,80", "--mask", "kinds.h5:/flags",
+                         "--output", name.replace(">", "big"))
+        for path in self.folder.glob("map*/morphology.h5"):
+            found = program.datasets(path)
+            field = next(iter(found)).split("/")[0]
+            numpy.testing.assert_array_equal(found[f"{field}/pixels"], [solid.sum()])
+            numpy.testing.assert_array_equal(found[f"{field}/F"][0], [(image[solid] >= 50).sum(), (image[solid] >= 80).sum()])
+        self.assertEqual(len(list(self.folder.glob("map*/morphology.h5"))), 11)
+        # Flags as a map, and what holds no numbers.
+        output = self.succeed("analyze", "kinds.h5:/flags", "--thresholds", "1", ranks=2).output
+        self.assertIn(f"{solid.mean():.6g}", output)
+        self.refuse("kinds.h5:/names: allowed are floating-point numbers of 32 and 64 bits, whole numbers and flags",
+                    "analyze", "kinds.h5:/names", "--thresholds", "1")
+
+    def test_doubtful_masks(self):
+        image = random_image((6, 5), 10)
+        image[4, 1:3] = numpy.nan
+        solid = numpy.ones(image.shape)
+        solid[0] = 0
+        numpy.save(self.folder / "holes.npy", image)
+        numpy.save(self.folder / "mask.npy", solid)
+        for ranks in (1, 3):
+            output = self.succeed("analyze", "holes.npy", "--mask", "mask.npy", "--thresholds", "0.5", ranks=ranks).output
+            self.assertIn("array, 23 pixels of material", output)
+            self.assertIn("  2 pixels are material by the mask but have no value (NaN); they count as void\n", output)
+        doubtful = solid.copy()
+        doubtful[2, 2] = doubtful[5, 0] = numpy.nan
+        numpy.save(self.folder / "doubtful.npy", doubtful)
+        numpy.save(self.folder / "empty.npy", 0 * solid)
+        numpy.save(self.folder / "elsewhere.npy", numpy.isnan(image))
+        numpy.save(self.folder / "nothing.npy", numpy.full((6, 5), numpy.nan))
+        levels = ("--thresholds", "0.5", "--mask")
+        for ranks in (1, 3):
+            self.refuse("--mask: doubtful.npy has 2 NaN, allowed are 0 for void and other numbers for material",
+                        "analyze", "holes.npy", *levels, "doubtful.npy", ranks=ranks)
+            for mask in ("empty.npy", "elsewhere.npy"):
+                self.refuse(f"--mask: {mask} leaves no pixel with a value; allowed are 0 for void and other numbers for "
+                            "material, at least one", "analyze", "holes.npy", *levels, mask, ranks=ranks)
+            self.refuse("nothing.npy: found nothing but NaN, allowed are numbers", "analyze", "nothing.npy", *levels[:2],
+                        ranks=ranks)
+
+    def test_pixels_that_are_none(self):
+        numpy.save(self.folder / "good.npy", random_image((4, 5), 7))
+        for pixel, text in (("0", "0"), ("-1e-6", "-1e-06"), ("nan", "nan"), ("inf", "inf"), ("-0.0", "-0")):
+            self.refuse(f"--pixel: found {text}, allowed a finite number > 0 (m)", "analyze", "good.npy", "--thresholds",
+                        "0.5", f"--pixel={pixel}")
+
+    def test_damaged_headers(self):
+        """Every header says what is wrong with it, and none ends the program in another way."""
+        again = "; write it again with numpy.save(name, array)"
+
+        def header(text, version=1, length=None):
+            length = len(text) if length is None else length
+            start = b"\x93NUMPY" + bytes([version, 0]) + length.to_bytes(2 if version == 1 else 4, "little")
+            (self.folder / "header.npy").write_bytes(start + text.encode() + bytes(96))
+            return self.message(2, "analyze", "header.npy", "--thresholds", "0.5").removeprefix("header.npy: ")
+
+        good = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }"
+        self.succeed("analyze", self.save_with(good), "--thresholds", "0.5")
+        damaged = "its header is damaged, it has "
+        self.assertEqual(header("{'descr':"), damaged + "no type of the numbers ('descr')" + again)
+        self.assertEqual(header("{'descr':   "), damaged + "no type of the numbers ('descr')" + again)
+        self.assertEqual(header(""), damaged + "no type of the numbers ('descr')" + again)
+        self.assertEqual(header("{'descr': '<f8', 'shape': (3, 4)}"), damaged + "no order of the numbers ('fortran_order')" + again)
+        self.assertEqual(header("{'descr': '<f8', 'fortran_order': False}"), damaged + "no extents ('shape')" + again)
+        self.assertEqual(header("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4"), damaged + "no extents ('shape')" + again)
+        for shape in ("(3, -4)", "(3, x)", "3", "(3, 99999999999999999999999)", "(3 4)", "(3.5, 2)"):
+            self.assertEqual(header(good.replace("(3, 4)", shape)),
+                             damaged + f"the extents {shape}, allowed are some like (3, 4)" + again)
+        for shape in ("(3, 5)", "(4294967296, 4294967296)", "(4294967296, 4294967296, 4294967297)"):
+            self.assertEqual(header(good.replace("(3, 4)", shape)), "truncated, it is shorter than its header says")
+        self.assertEqual(header(good, version=9), damaged + "the version 9, allowed are 1 to 3" + again)
+        self.assertEqual(header(good, length=40000), "truncated")
+        self.assertIn("found numbers of type '>f8'; allowed are", header(good.replace("<", ">")))
+        self.assertIn("found numbers of type [('a'; allowed are", header(good.replace("'<f8'", "[('a', '<f8')]")))
+        self.assertIn("dimensions without numbers", header(good.replace("(3, 4)", "(3, 0)")))
+        self.assertIn("found an array of 0 dimensions", header(good.replace("(3, 4)", "()")))
+
+    def save_with(self, header):
+        start = b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little")
+        (self.folder / "whole.npy").write_bytes(start + header.encode() + bytes(96))
+        return "whole.npy"
+
     def test_refusals(self):
         numpy.save(self.folder / "line.npy", numpy.ones(5))
         numpy.save(self.folder / "columns.npy", numpy.asfortranarray(random_image((4, 5), 6)))

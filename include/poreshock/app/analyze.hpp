@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct AnalyzeOptions {
   std::string periodic;            ///< lateral axes of an array that wrap: x, y or x,y
   std::string voids;               ///< in chi: black, white, fill or exclude; empty: black
   bool isoline = false;            ///< lengths (3-D: areas) of interpolated boundaries too
-  double pixel = 0.0;              ///< m; 0: as the scene says, 1 for arrays
+  std::optional<double> pixel;     ///< m; without: as the scene says, 1 for arrays
   std::string output;              ///< folder
   bool force = false;
 };

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,10 @@ struct CompareOptions {
   std::string field = "temperature";
   std::string threshold;  ///< of the reference, A,B,C in the unit of the field; empty: all
   std::string window;     ///< BEGIN:END, s; slower (or empty), faster: to that run's end of loading
-  std::string time = "common";  ///< common, or loading: in units of each run's own loading time
-  std::string chi = "chi";      ///< which Euler characteristic: chi, chi4 (chi6 in 3-D), chi_paper
-  double length = 0.0;          ///< m, unit of length of the functionals; 0: the pixel
-  std::string output;           ///< .h5 or .csv; empty: none
+  std::string time = "common";   ///< common, or loading: in units of each run's own loading time
+  std::string chi = "chi";       ///< which Euler characteristic: chi, chi4 (chi6 in 3-D), chi_paper
+  std::optional<double> length;  ///< m, unit of length of the functionals; without: the pixel
+  std::string output;            ///< .h5 or .csv; empty: none
 };
 
 /// Compares every run with the first one: prints a table of d_p and S_p at the same and at the best

@@ -19,6 +19,8 @@ struct StoredArray {
   std::string number;             ///< .npy: type of a number, for example "f8"
   std::uint64_t data_begin = 0;   ///< .npy: first byte of the numbers
 
+  /// As the command line names it.
+  std::string name() const { return dataset.empty() ? file : file + ":" + dataset; }
   std::uint64_t row_size() const {
     std::uint64_t result = 1;
     for (std::size_t axis = 1; axis < shape.size(); ++axis) result *= shape[axis];
@@ -29,8 +31,8 @@ struct StoredArray {
 /// Whether a name asks for an array: FILE.npy or FILE:/path/in/HDF5.
 bool names_array(const std::string& name);
 
-/// Finds the array FILE.npy or FILE.h5:/path. Allowed are little-endian floating-point and whole
-/// numbers and flags, rows first (C order); in HDF5 those of our own files. InputError on all ranks
+/// Finds the array FILE.npy or FILE.h5:/path. Allowed are floating-point numbers of 32 and 64 bits,
+/// whole numbers and flags; in .npy little-endian and rows first (C order). InputError on all ranks
 /// for everything else. Collective.
 StoredArray find_array(const std::string& name, MPI_Comm communicator);
 

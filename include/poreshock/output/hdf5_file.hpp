@@ -61,6 +61,7 @@ struct FileSpec {
 struct DatasetInfo {
   std::string path;
   std::optional<NumberType> type;
+  bool numbers = false;  ///< what it holds can be read as numbers, flags and any integers too
   std::vector<std::uint64_t> shape;
   std::string unit;
 
