@@ -1,5 +1,6 @@
 #include "poreshock/app/compare.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -133,13 +134,32 @@ std::vector<double> checked_thresholds(const std::string& text, const RunData& r
   return thresholds;
 }
 
-/// d_p at the threshold of the reference; NaN when the run did not measure it.
-double distance_at_same(const Path& reference, const Process& process, double threshold,
-                        Window window) {
+/// d_p at one threshold of a run, and how much of it interpolation may be.
+struct DistanceThere {
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  double interpolation = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Both NaN when the run did not measure the threshold.
+DistanceThere distance_there(const Path& reference, const Process& process, double threshold,
+                             Window window) {
   const bool measured =
       process.threshold.front() <= threshold && threshold <= process.threshold.back();
-  return measured ? process_distance(reference, path_at(process, threshold), window)
-                  : std::numeric_limits<double>::quiet_NaN();
+  if (!measured) return {};
+  const Path path = path_at(process, threshold);
+  return {process_distance(reference, path, window),
+          interpolation_distance(reference, path, window)};
+}
+
+/// Whether a record of `a` in the window lies at no time of `b`, but for rounding.
+bool has_other_times(const Process& a, const Process& b, Window window) {
+  const double near = 1e-9 * (window.end - window.begin);
+  for (const double time : a.time) {
+    if (!(window.begin < time && time < window.end)) continue;
+    const auto next = std::lower_bound(b.time.begin(), b.time.end(), time - near);
+    if (next == b.time.end() || *next > time + near) return true;
+  }
+  return false;
 }
 
 ComparedRun compare_run(const RunData& reference, const RunData& run,
@@ -151,26 +171,44 @@ ComparedRun compare_run(const RunData& reference, const RunData& run,
   result.begin = window.begin;
   result.end = window.end;
   result.threshold = run.process.threshold;
+  result.interpolated = has_other_times(reference.process, run.process, window) ||
+                        has_other_times(run.process, reference.process, window);
   for (const double threshold : thresholds) {
     const Path path = path_at(reference.process, threshold);
     const Match match = find_match(path, run.process, window);
     result.distance.insert(result.distance.end(), match.distance.begin(), match.distance.end());
-    result.same_distance.push_back(distance_at_same(path, run.process, threshold, window));
+    const DistanceThere same = distance_there(path, run.process, threshold, window);
+    result.same_distance.push_back(same.distance);
+    result.same_interpolation.push_back(same.interpolation);
     result.best_threshold.push_back(match.best_threshold);
     result.best_distance.push_back(match.best_distance);
-    const Path d = distances(path, path_at(run.process, match.best_threshold), window);
+    const Path best = path_at(run.process, match.best_threshold);
+    result.best_interpolation.push_back(interpolation_distance(path, best, window));
+    const Path d = distances(path, best, window);
     result.time = d.time;
     for (const auto& point : d.points) result.pattern_distance.push_back(point[0]);
   }
   return result;
 }
 
-std::string similarity_text(double distance) {
+/// The similarity, or why there is no number: what interpolation alone makes up says nothing.
+std::string similarity_text(double distance, double interpolation) {
   if (std::isnan(distance)) return "not measured";
   if (distance == 0.0) return "identical";
+  if (distance <= interpolation * (1.0 + 1e-9)) return "alike";
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", similarity(distance));
   return text;
+}
+
+void print_interpolation(const Comparison& comparison, const ComparedRun& run) {
+  double most = 0.0;
+  for (const double d : run.same_interpolation) most = d > most ? d : most;
+  for (const double d : run.best_interpolation) most = d > most ? d : most;
+  std::printf(
+      "  recorded at other times than %s: each was interpolated at the times of the other, which "
+      "alone moves d_p by up to %.6g; alike means by no more than that at this threshold\n",
+      comparison.reference.c_str(), most);
 }
 
 void print(const Comparison& comparison) {
@@ -190,10 +228,12 @@ void print(const Comparison& comparison) {
       const bool end = best == run.threshold.front() || best == run.threshold.back();
       at_end = at_end || end;
       std::printf("  %-18.8g %-14.6g %-14s %-18s %-14.6g %s\n", comparison.reference_threshold[r],
-                  run.same_distance[r], similarity_text(run.same_distance[r]).c_str(),
+                  run.same_distance[r],
+                  similarity_text(run.same_distance[r], run.same_interpolation[r]).c_str(),
                   (std::to_string(best) + (end ? " *" : "")).c_str(), run.best_distance[r],
-                  similarity_text(run.best_distance[r]).c_str());
+                  similarity_text(run.best_distance[r], run.best_interpolation[r]).c_str());
     }
+    if (run.interpolated) print_interpolation(comparison, run);
     if (at_end) {
       std::printf(
           "  * at the end of the measured thresholds, %.8g ... %.8g %s: the best one may "

@@ -65,6 +65,20 @@ std::vector<double> times_of_both(const Path& a, const Path& b, Window window) {
   return times;
 }
 
+/// The path as it would be if only these times and its own ends had been recorded.
+Path thinned(const Path& path, std::span<const double> times) {
+  Path result{{path.time.front()}, {path.points.front()}};
+  for (const double time : times) {
+    if (!(result.time.back() < time && time < path.time.back())) continue;
+    result.time.push_back(time);
+    result.points.push_back(point_at(path, time));
+  }
+  if (path.time.size() == 1) return result;
+  result.time.push_back(path.time.back());
+  result.points.push_back(path.points.back());
+  return result;
+}
+
 /// Integral of the area fraction over the thresholds at one record.
 double mean_above(const Process& process, std::size_t record) {
   const std::size_t count = process.threshold.size();
@@ -155,6 +169,11 @@ double process_distance(const Path& a, const Path& b, Window window) {
     integral += 0.5 * (d.points[t][0] + d.points[t + 1][0]) * (d.time[t + 1] - d.time[t]);
   }
   return integral / (window.end - window.begin);
+}
+
+double interpolation_distance(const Path& a, const Path& b, Window window) {
+  return process_distance(a, thinned(a, b.time), window) +
+         process_distance(b, thinned(b, a.time), window);
 }
 
 Match find_match(const Path& reference, const Process& process, Window window) {

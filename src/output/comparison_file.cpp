@@ -30,6 +30,8 @@ std::vector<Part> parts_of(const Comparison& comparison, const ComparedRun& run,
           {folder + "d_p_same", {references}, "1", run.same_distance},
           {folder + "best_threshold", {references}, unit, run.best_threshold},
           {folder + "d_p_best", {references}, "1", run.best_distance},
+          {folder + "d_p_same_interpolation", {references}, "1", run.same_interpolation},
+          {folder + "d_p_best_interpolation", {references}, "1", run.best_interpolation},
           {folder + "time", {times}, comparison.time_unit, run.time},
           {folder + "d", {references, times}, "1", run.pattern_distance}};
 }
@@ -84,13 +86,15 @@ std::string csv_text(const Comparison& comparison) {
   const std::string& unit = comparison.unit;
   std::string text = "run,reference_threshold [" + unit + "],begin [" + comparison.time_unit +
                      "],end [" + comparison.time_unit + "],d_p_same [1]," + "best_threshold [" +
-                     unit + "],d_p_best [1]\n";
+                     unit +
+                     "],d_p_best [1],d_p_same_interpolation [1],d_p_best_interpolation [1]\n";
   for (const ComparedRun& run : comparison.runs) {
     for (std::size_t r = 0; r < comparison.reference_threshold.size(); ++r) {
       std::array<char, 256> line{};
-      std::snprintf(line.data(), line.size(), ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
+      std::snprintf(line.data(), line.size(), ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
                     comparison.reference_threshold[r], run.begin, run.end, run.same_distance[r],
-                    run.best_threshold[r], run.best_distance[r]);
+                    run.best_threshold[r], run.best_distance[r], run.same_interpolation[r],
+                    run.best_interpolation[r]);
       text += "\"" + run.path + "\"" + line.data();
     }
   }

@@ -74,16 +74,18 @@ class Compare(program.ProgramTest):
         at = list(threshold).index(500.0)
         lines = (self.folder / "one.csv").read_text().splitlines()
         self.assertEqual(lines[0], "run,reference_threshold [K],begin [s],end [s],d_p_same [1],best_threshold [K],"
-                                   "d_p_best [1]")
+                                   "d_p_best [1],d_p_same_interpolation [1],d_p_best_interpolation [1]")
         name, *numbers = lines[1].split(",")
         self.assertEqual(name, '"v1300"')
-        reference, begin, end, same, _, best = map(float, numbers)
+        reference, begin, end, same, _, best, *interpolation = map(float, numbers)
+        self.assertEqual(interpolation, [0.0, 0.0])
+        self.assertNotIn("interpolated", output)
         self.assertEqual((reference, begin, end), (500.0, 5e-9, 15e-9))
         expected = process_distance(time, fast[:, at], slow[:, at], 5e-9, 15e-9)
         self.assertAlmostEqual(same, expected, delta=1e-9 * expected)
         self.assertLess(best, same)
         # The reference against itself: no distance at all, and the table says so.
-        self.assertEqual(lines[2].split(",")[4:], ["0", "500", "0"])
+        self.assertEqual(lines[2].split(",")[4:], ["0", "500", "0", "0", "0"])
         self.assertEqual(output.count("identical"), 2)
 
     def test_seeds_give_an_uncertainty(self):
@@ -127,6 +129,27 @@ class Compare(program.ProgramTest):
         both = numpy.isin(time, theirs["temperature/time"])
         expected = process_distance(time[both], fine[both][:, at], coarse[:, at], time[0], time[both][-1])
         self.assertAlmostEqual(ours["run_1/d_p_same"][0], expected, delta=1e-12)
+
+    def test_other_record_times(self):
+        """One run, recorded more and less often, differs from itself by what interpolation adds, and that is said."""
+        for name, every in (("often", "2.5e-9"), ("seldom", "10e-9")):
+            self.run_scene("porous.toml", name, "--set", f"morphology.every={every}", "--set", "loading.velocity=1500")
+        for first, second in (("often", "v1500"), ("v1500", "often"), ("seldom", "v1500"), ("often", "seldom")):
+            for window in ((), ("--window", "2e-9:17e-9")):
+                output = self.succeed("compare", first, second, *window, "--output", "times.h5").output
+                found = program.datasets(self.folder / "times.h5")
+                most = found["run_1/d_p_same_interpolation"].max()
+                self.assertGreater(most, 0.0)
+                self.assertIn(f"recorded at other times than {first}: each was interpolated at the times of the other, "
+                              "which alone moves d_p by up to ", output)
+                self.assertTrue((found["run_1/d_p_same"] <= found["run_1/d_p_same_interpolation"] * (1 + 1e-9)).all())
+                self.assertTrue((found["run_1/d_p_best"] <= found["run_1/d_p_same_interpolation"] * (1 + 1e-9)).all())
+                self.assertGreater(output.count("alike"), 50)
+        # Another run is still told from it.
+        output = self.succeed("compare", "often", "v1300", "--threshold", "500", "--output", "times.h5").output
+        found = program.datasets(self.folder / "times.h5")
+        self.assertGreater(found["run_1/d_p_same"][0], 2 * found["run_1/d_p_same_interpolation"][0])
+        self.assertNotIn("alike\n", output)
 
     def test_refusals(self):
         self.refuse("compare: found 1 run, allowed two or more; the first is the reference", "compare", "v1500")

@@ -134,4 +134,34 @@ TEST(Similarity, WindowEndsWithTheSlowerLoading) {
   EXPECT_THROW(loading_window(ramp(0.0, 10), ramp(0.0, 10)), InputError);
 }
 
+/// One curved process at different record times: its distance is what interpolation makes of it.
+TEST(Similarity, InterpolationBetweenRecords) {
+  const auto at = [](std::vector<double> t, double slope) {
+    return path_at(
+        make_process(std::move(t), {100.0}, {[=](double s, double) { return s * s + slope * s; }}),
+        100.0);
+  };
+  const Path fine = at(times(9, 1.0), 0.0);
+  const Path coarse = at(times(5, 2.0), 0.0);
+  // Half way between two records a parabola lies (2/2)^2 below its chord.
+  EXPECT_DOUBLE_EQ(interpolation_distance(fine, coarse, {0.0, 8.0}), 0.5);
+  for (const Window window : {Window{0.0, 8.0}, Window{1.0, 7.0}, Window{0.5, 7.25}}) {
+    EXPECT_EQ(process_distance(fine, coarse, window), interpolation_distance(fine, coarse, window));
+    EXPECT_EQ(interpolation_distance(fine, coarse, window),
+              interpolation_distance(coarse, fine, window));
+  }
+  EXPECT_EQ(interpolation_distance(fine, at(times(9, 1.0), 3.0), {0.0, 8.0}), 0.0);
+  // Neither has the times of the other, one ends earlier, one has a single gap.
+  for (const Path& other : {at(times(6, 1.6), 0.0), at({0.0, 0.9, 2.2, 4.6, 4.7, 8.0}, 0.0),
+                            at({0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 7.0, 8.0}, 0.0)}) {
+    const double d = process_distance(fine, other, {0.0, 8.0});
+    EXPECT_GT(d, 0.0);
+    EXPECT_LE(d, interpolation_distance(fine, other, {0.0, 8.0}));
+  }
+  // What differs is found all the same.
+  const Path parted = at(times(5, 2.0), 1.0);
+  EXPECT_GT(process_distance(fine, parted, {0.0, 8.0}),
+            5.0 * interpolation_distance(fine, parted, {0.0, 8.0}));
+}
+
 }  // namespace

@@ -64,6 +64,11 @@ Path distances(const Path& a, const Path& b, Window window);
 /// times of either. Throws InputError when the window is empty or not covered by both.
 double process_distance(const Path& a, const Path& b, Window window);
 
+/// By how much interpolation between records alone moves the distance of two paths: each against
+/// itself known at the times of the other only, the two distances d_p added. 0 where both have the
+/// same times. Throws InputError as process_distance does.
+double interpolation_distance(const Path& a, const Path& b, Window window);
+
 /// The threshold of a process at which it is most similar to a path.
 struct Match {
   std::vector<double> distance;  ///< d_p per stored threshold

@@ -18,8 +18,11 @@ struct ComparedRun {
   std::vector<double> same_distance;   ///< R, d_p at the reference's threshold; NaN if not measured
   std::vector<double> best_threshold;  ///< R
   std::vector<double> best_distance;   ///< R, d_p there
-  std::vector<double> time;            ///< of both runs in the window
-  std::vector<double> pattern_distance;  ///< R x times, d at the best threshold
+  std::vector<double> same_interpolation;  ///< R, what interpolation between records adds to each
+  std::vector<double> best_interpolation;  ///< d_p; 0 where both have the same times
+  bool interpolated = false;               ///< the runs were recorded at different times
+  std::vector<double> time;                ///< of both runs in the window
+  std::vector<double> pattern_distance;    ///< R x times, d at the best threshold
 };
 
 /// Mean and standard deviation, an entry per threshold of the reference.
