@@ -82,6 +82,13 @@ void write_hdf5(const std::string& path, const Comparison& comparison) {
   file.finish();
 }
 
+/// A text as one cell of a CSV file, RFC 4180.
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+  return cell + "\"";
+}
+
 std::string csv_text(const Comparison& comparison) {
   const std::string& unit = comparison.unit;
   std::string text = "run,reference_threshold [" + unit + "],begin [" + comparison.time_unit +
@@ -95,7 +102,7 @@ std::string csv_text(const Comparison& comparison) {
                     comparison.reference_threshold[r], run.begin, run.end, run.same_distance[r],
                     run.best_threshold[r], run.best_distance[r], run.same_interpolation[r],
                     run.best_interpolation[r]);
-      text += "\"" + run.path + "\"" + line.data();
+      text += quoted(run.path) + line.data();
     }
   }
   return text;

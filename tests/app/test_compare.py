@@ -1,4 +1,6 @@
 """Similarity of runs: the command against eqs 16 to 18 worked out from the stored curves."""
+import csv
+import shutil
 import unittest
 
 import h5py
@@ -87,6 +89,17 @@ class Compare(program.ProgramTest):
         # The reference against itself: no distance at all, and the table says so.
         self.assertEqual(lines[2].split(",")[4:], ["0", "500", "0", "0", "0"])
         self.assertEqual(output.count("identical"), 2)
+
+    def test_names_with_quotes_and_commas(self):
+        names = ('a "quoted" name', "one, two", '"', 'both: "a", b')
+        for name in names:
+            shutil.copytree(self.folder / "v1300", self.folder / name)
+        self.succeed("compare", "v1500", *names, "v1300", "--threshold", "500", "--output", "names.csv")
+        with open(self.folder / "names.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual([row[0] for row in rows[1:]], [*names, "v1300"])
+        self.assertEqual({len(row) for row in rows}, {9})
+        self.assertEqual(len({tuple(row[1:]) for row in rows[1:]}), 1)
 
     def test_seeds_give_an_uncertainty(self):
         for seed in (2, 3):
