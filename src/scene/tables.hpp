@@ -138,8 +138,10 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
                               {"white", MapVoids::white},
                               {"fill", MapVoids::fill},
                               {"exclude", MapVoids::exclude}};
-  choice(visitor, "voids", morphology.voids, voids,
-         {"in chi: cold, hot, like the nearest material, or left out"});
+  choice(
+      visitor, "voids", morphology.voids, voids,
+      {"in chi: cold, hot, like the nearest material, or left out: hot share of the pixels - edges "
+       "+ vertices that touch none"});
   const Names<BoundaryLength> lengths{{"pixels", BoundaryLength::pixels},
                                       {"isoline", BoundaryLength::isoline}};
   choice(
