@@ -1,13 +1,12 @@
 // Scenes with mistakes: each is refused with a message, or is one that can be run.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "fuzz/case_watch.hpp"
 #include "fuzz/mutate.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/scene/read_scene.hpp"
@@ -17,19 +16,8 @@
 namespace poreshock {
 namespace {
 
-constexpr unsigned seconds_per_case = 20;
 constexpr double most_particles = 8000;
 constexpr int most_failures = 20;
-
-/// The case that runs, for the handler of a crash or a hang.
-char current_case[64] = "";
-
-void tell_case(int number) {
-  const ssize_t written =
-      write(STDERR_FILENO, current_case, std::char_traits<char>::length(current_case));
-  std::signal(number, SIG_DFL);
-  std::raise(written < 0 ? SIGABRT : number);
-}
 
 std::vector<std::string> originals() {
   std::vector<std::string> texts = {
@@ -113,27 +101,23 @@ void try_scene(const std::string& text, Counts& counts) {
 }
 
 TEST(Fuzz, ScenesAreRefusedWithAReasonOrCanBeRun) {
-  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGALRM, SIGBUS}) {
-    std::signal(number, tell_case);
-  }
+  const test::CaseWatch watch;
   const std::vector<std::string> texts = originals();
   const std::uint64_t count = test::fuzz_count("PORESHOCK_FUZZ_SCENES", 300);
   const std::uint64_t first = test::fuzz_count("PORESHOCK_FUZZ_FIRST", 0);
   Counts counts;
   int failed = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    std::snprintf(current_case, sizeof(current_case), "case %llu ended the test\n",
-                  static_cast<unsigned long long>(seed));
     test::Mutator mutator(seed);
     const std::string text = mutator.scene(mutator.pick(texts), mutator.pick(texts));
     if (count == 1) std::printf("%s\n", text.c_str()), std::fflush(stdout);
-    alarm(seconds_per_case);
+    watch.begin(seed);
     try {
       try_scene(text, counts);
     } catch (const std::exception& error) {
       ADD_FAILURE() << "another exception: " << error.what();
     }
-    alarm(0);
+    watch.end();
     if (failures() == failed) continue;
     failed = failures();
     std::printf("case %llu:\n%s\n", static_cast<unsigned long long>(seed), text.c_str());
@@ -146,9 +130,6 @@ TEST(Fuzz, ScenesAreRefusedWithAReasonOrCanBeRun) {
               static_cast<unsigned long long>(counts.run));
   EXPECT_GT(counts.refused, count / 10);
   EXPECT_GT(counts.accepted, count / 20);
-  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGALRM, SIGBUS}) {
-    std::signal(number, SIG_DFL);
-  }
 }
 
 }  // namespace

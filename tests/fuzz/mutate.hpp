@@ -57,6 +57,13 @@ class Mutator {
     return text;
   }
 
+  /// Changes bytes or numbers of the text with which a file begins.
+  void beginning(std::string& bytes, std::size_t length) {
+    std::string text = bytes.substr(0, length);
+    below(2) == 0 ? change_bytes(text) : replace_digits(text);
+    bytes.replace(0, length, text);
+  }
+
   /// Flips, cuts, lengthens or fills a part of a file.
   void file(std::string& bytes) {
     switch (below(6)) {
