@@ -253,6 +253,7 @@ template <int Dim>
 PixelField<Dim> make_map(const PixelGrid<Dim>& grid, std::size_t fields) {
   PixelField<Dim> map;
   map.layout = grid.layout();
+  map.rounding = map_rounding;
   map.rows = grid.rows();
   map.first = grid.first_row() == 0;
   map.last = grid.first_row() + grid.rows() == grid.layout().pixels[Dim - 1];

@@ -89,6 +89,7 @@ PixelField<Dim> place_on_lattice(std::span<const std::int64_t> id,
 
   PixelField<Dim> map;
   map.layout = grid.layout();
+  map.rounding = map_rounding;
   map.rows = grid.rows();
   map.first = grid.first_row() == 0;
   map.last = grid.first_row() + grid.rows() == map.layout.pixels[Dim - 1];

@@ -96,12 +96,14 @@ void append_interpolated(const PixelField<Dim>& map, std::size_t field, MPI_Comm
   record.functionals.push_back(std::move(boundary));
 }
 
-/// Thresholds as the map would hold them: 0.7 is reached by the nearest number of 32 bits to it,
-/// which lies below.
+/// From where on a value counts as at a threshold: 0.7 is reached by the nearest number of 32 bits
+/// to it, which lies below, and by what rounding alone keeps from it.
 template <int Dim>
-std::vector<double> as_stored(const PixelField<Dim>& map, std::vector<double> thresholds) {
-  if (!map.single_precision) return thresholds;
-  for (double& threshold : thresholds) threshold = static_cast<float>(threshold);
+std::vector<double> reached_from(const PixelField<Dim>& map, std::vector<double> thresholds) {
+  for (double& threshold : thresholds) {
+    if (map.single_precision) threshold = static_cast<float>(threshold);
+    threshold -= map.rounding * std::abs(threshold);
+  }
   return thresholds;
 }
 
@@ -175,7 +177,7 @@ void append_spots(const PixelField<Dim>& map, std::size_t field,
                   MPI_Comm communicator, MorphologyRecord& record) {
   if (thresholds.empty()) return;
   record.spot_columns = spot_columns<Dim>(record.unit);
-  const std::vector<double> reached = as_stored(map, thresholds);
+  const std::vector<double> reached = reached_from(map, thresholds);
   for (std::size_t k = 0; k < thresholds.size(); ++k) {
     const auto spots = find_hot_spots<Dim>(map, field, reached[k], Joining::corners, communicator);
     for (const HotSpot<Dim>& spot : spots) {
@@ -194,7 +196,7 @@ MorphologyRecord measure(const PixelField<Dim>& map, std::size_t field, const Mo
   MorphologyRecord record;
   record.field = what.name;
   record.unit = unit;
-  record.threshold = as_stored(map, what.thresholds);
+  record.threshold = reached_from(map, what.thresholds);
   std::vector<double> levels;
   if (!what.quantiles.empty()) {
     levels = quantiles<Dim>(map, field, what.quantiles, communicator);

@@ -76,6 +76,10 @@ struct PixelScales {
   double max_side = 0.0;  ///< m, largest side of a particle square, which bounds its reach
 };
 
+/// A value of a map of particles reaches a threshold from this share of it below: at rest the
+/// arithmetic of a run leaves 300 K at 300 K - 1e-13 K.
+inline constexpr double map_rounding = 0x1p-31;
+
 /// Fields of a map on the rows of this rank and one row of the upper neighbour.
 template <int Dim>
 struct PixelField {
@@ -85,6 +89,7 @@ struct PixelField {
   bool last = false;                        ///< the highest rows of the map are here
   std::vector<std::vector<double>> values;  ///< per field (rows + 1) x row size; NaN in void pixels
   bool single_precision = false;            ///< the values come from numbers of 32 bits
+  double rounding = 0.0;                    ///< share of a value that may be the arithmetic's
   std::vector<std::uint8_t> solid;          ///< (rows + 1) x row size, 1 = material, 0 = void
   std::vector<std::int64_t> coverage;       ///< owned rows: covered area in 2^-18 pixels
   std::int64_t capped = 0;   ///< particles, on all ranks, whose square was cut to max_side

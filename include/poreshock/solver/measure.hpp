@@ -11,7 +11,8 @@
 namespace poreshock {
 
 /// Counts and functionals of field number `field` of the map at the thresholds of `what`; where the
-/// map comes from numbers of 32 bits, thresholds are rounded to such before they are compared. With
+/// map comes from numbers of 32 bits, thresholds are rounded to such before they are compared, and
+/// a value below a threshold by no more than the map's rounding is at it. With
 /// quantiles the thresholds of the record are these shares, its curve "level" has the values of the
 /// field there (NaN, and nothing hot, where no pixel has a value). With morphology.domains the
 /// numbers of domains and chi_paper = (n_W - n_B)/N, and the hot spots at what.hot_spots. Positions
