@@ -73,6 +73,18 @@ class Sweep(unittest.TestCase):
         self.assertEqual(table.cases[0].settings, ("output.snapshot=0", "loading.velocity=900", "sample.seed=1"))
         self.assertEqual(table.cases[-1].settings[-2:], ("domain.cell=5e-06", "morphology.thresholds={from=310,to=400,step=10}"))
 
+    def test_output_lies_beside_the_file_by_default(self):
+        self.write(TABLE.replace('output = "runs"\n', ""))
+        self.assertEqual(self.table().folder, self.folder / "output/table")
+
+    def test_long_titles_make_names_of_their_own(self):
+        titles = ["all that was asked for in the third campaign " * 7 + end for end in ("a", "b")]
+        self.write(f"scene = 'scene.toml'\noutput = 'runs'\n[vary]\ntitle = {titles!r}\n")
+        cases = self.table().cases
+        self.assertEqual([len(case.name) for case in cases], [120, 120])
+        self.assertEqual(self.run_all(cases, self.program()), [])
+        self.assertEqual(len({case.name for case in cases if sweep.is_done(self.folder / "runs", case)}), 2)
+
     def test_mistakes_are_named(self):
         for text, words in (("[vary]\n'a.b' = [1]", "no scene"), ("scene = 'no.toml'", "there is no file"),
                             ("scene = 'scene.toml'\nvarry = 1", "varry"),

@@ -1,6 +1,7 @@
 """Tables of runs: which there are, which are done, and running those that are not."""
 import csv
 import fcntl
+import hashlib
 import itertools
 import json
 import os
@@ -18,6 +19,8 @@ import numpy
 
 from poreshock_cases.program import ROOT, CaseError
 from poreshock_report import folder as reader
+
+LONGEST_NAME = 120  # most file systems take 255 bytes, of which endings and temporary names need some
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,14 @@ def plain(text):
     return re.sub(r"[^A-Za-z0-9.+-]+", "_", text).strip("_")
 
 
+def run_name(parts):
+    """The name of a run from its parts; a long one, which no file system takes, ends in a hash of all of it."""
+    name = "-".join(parts)
+    if len(name) <= LONGEST_NAME:
+        return name
+    return f"{name[:LONGEST_NAME - 11]}-{hashlib.sha256(name.encode()).hexdigest()[:10]}"
+
+
 def expand(path):
     """The table of a file; ValueError says what is wrong with it."""
     content = tomllib.loads(path.read_text())
@@ -77,13 +88,12 @@ def expand(path):
         parts = [f"{key.split('.')[-1]}_{plain(toml_value(value))}" for key, value in chosen.items()]
         parts += [plain(option["name"])] if "name" in option else []
         settings = content.get("set", {}) | chosen | option.get("set", {})
-        cases.append(Case("-".join(parts) or scene.stem, scene, settings_of(settings)))
+        cases.append(Case(run_name(parts or [scene.stem]), scene, settings_of(settings)))
     names = [case.name for case in cases]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise ValueError(f"{path}: these runs have the same name: {', '.join(twice)}; name the options apart")
-    output = path.parent / content["output"] if "output" in content else ROOT / "output" / path.stem
-    return Table(output, int(content.get("ranks", 1)), tuple(cases))
+    return Table(path.parent / content.get("output", Path("output") / path.stem), int(content.get("ranks", 1)), tuple(cases))
 
 
 def marker(folder, case):
