@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "override_hint.hpp"
+
 namespace poreshock::scene_text {
 namespace {
 
@@ -99,6 +101,17 @@ void apply_override(const std::string& text, toml::table& document, Report& repo
   if (equals == std::string::npos || text.find('\n') != std::string::npos) {
     add_problem_at(origin, "", "found no value, allowed table.key=value such as time.end=2e-7",
                    report);
+    return;
+  }
+  if (equals + 1 == text.size()) {
+    add_problem_at(origin, "", "found nothing after the =, allowed a value such as time.end=2e-7",
+                   report);
+    return;
+  }
+  const std::string value = text.substr(equals + 1);
+  const std::string hint = is_bare_word(value) ? "" : override_hint(text);
+  if (!hint.empty()) {
+    add_problem_at(origin, "", hint, report);
     return;
   }
   try {

@@ -170,6 +170,38 @@ TEST(Messages, SyntaxErrors) {
       "integer 'end'");
 }
 
+TEST(Messages, OverridesSayHowToWriteThem) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"morphology.thresholds=310:900:10",
+       "found a range, allowed {from, to, step}; write --set "
+       "'morphology.thresholds={from = 310, to = 900, step = 10}'"},
+      {"morphology.thresholds=10:50:10",
+       "found a range, allowed {from, to, step}; write --set "
+       "'morphology.thresholds={from = 10, to = 50, step = 10}'"},
+      {"morphology.thresholds=1e9..5e9",
+       "found a range, allowed {from, to, step}; write --set "
+       "'morphology.thresholds={from = 1e9, to = 5e9, step = 10}'"},
+      {"morphology.thresholds={temperature=310:900:10, pressure=[1e9]}",
+       "found a range, allowed {from, to, step}; write --set 'morphology.thresholds={temperature="
+       "{from = 310, to = 900, step = 10}, pressure=[1e9]}'"},
+      {"title=a first run", "found a text without quotes; write --set 'title=\"a first run\"'"},
+      {"sample.image=../bed 2/label.png",
+       "found a text without quotes; write --set 'sample.image=\"../bed 2/label.png\"'"},
+      {"boundary.low={kind=wall, velocity=1e2}",
+       "found a text without quotes; write --set 'boundary.low={kind=\"wall\", velocity=1e2}'"},
+      {"output.fields=[temperature, \"pressure\"]",
+       "found a text without quotes; write --set 'output.fields=[\"temperature\", "
+       "\"pressure\"]'"},
+      {"output.fields=temperature,pressure",
+       "found a text without quotes; found a list without brackets; write --set "
+       "'output.fields=[\"temperature\",\"pressure\"]'"},
+      {"domain.size=1e-4,2e-4",
+       "found a list without brackets; write --set 'domain.size=[1e-4,2e-4]'"}};
+  for (const auto& [change, message] : cases) {
+    EXPECT_EQ(problems(small_scene(""), {change}), "--set " + change + ": " + message);
+  }
+}
+
 TEST(Messages, UnreadableFile) {
   const auto message = [](const std::string& path) -> std::string {
     try {
@@ -198,8 +230,7 @@ TEST(Messages, Overrides) {
   EXPECT_EQ(override_problems("time.end"),
             "--set time.end: found no value, allowed table.key=value such as time.end=2e-7");
   EXPECT_EQ(override_problems("time.end="),
-            "--set time.end=: not valid TOML: Error while parsing key-value pair: encountered "
-            "end-of-file");
+            "--set time.end=: found nothing after the =, allowed a value such as time.end=2e-7");
   EXPECT_EQ(override_problems("material.1.yield=0"),
             "--set material.1.yield=0: material: found the entry \"1\", allowed the index 0");
   EXPECT_EQ(override_problems("material.yield=0"),
