@@ -1,6 +1,7 @@
 #include "poreshock/core/parallel.hpp"
 
 #include <petscsys.h>
+#include <signal.h>
 
 #include <chrono>
 #include <thread>
@@ -11,10 +12,14 @@
 namespace poreshock {
 
 Runtime::Runtime(int& argc, char**& argv) {
+  struct sigaction hang_up {};
+  sigaction(SIGHUP, nullptr, &hang_up);
   check_petsc(PetscInitialize(&argc, &argv, nullptr, nullptr), "PetscInitialize");
   // Errors come back as codes and become exceptions with a text, instead of a printed stack.
   check_petsc(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr), "PetscPushErrorHandler");
   check_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
+  // What nohup has asked for outlives PETSc's own handlers.
+  if (hang_up.sa_handler == SIG_IGN) sigaction(SIGHUP, &hang_up, nullptr);
   return_large_blocks();
 }
 

@@ -8,7 +8,7 @@ import time
 import h5py
 
 from faults import Running, tell
-from program import PATIENCE, POROUS, ProgramTest, Result, closing_lines
+from program import PATIENCE, POROUS, PROGRAM, ProgramTest, Result, closing_lines
 
 # Far longer than the test waits for it.
 LONG = POROUS.replace("end = 20e-9", "end = 10e-6").replace("every_steps = 25", "every_steps = 0")
@@ -54,9 +54,9 @@ class Stop(ProgramTest):
         self.assert_stopped("signal", Result(run.returncode, output, errors))
 
     def test_signals_to_a_rank(self):
-        """TERM, INT and USR1, each to one rank of two: all stop after the same step."""
+        """Each signal to one rank of two: all stop after the same step."""
         self.write("scene.toml", LONG)
-        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGXCPU, signal.SIGUSR1, signal.SIGUSR2):
             run = Running(self.command("run", "scene.toml", "--quiet", "--output", number.name, ranks=2), self.folder)
             self.addCleanup(run.stop)
             history = self.folder / number.name / "history.csv"
@@ -67,7 +67,20 @@ class Stop(ProgramTest):
             match = re.match(r"asked to stop: checkpoint (\S+\.h5); continue with --restart latest\n", result.output)
             self.assertIsNotNone(match, str(result))
             self.assertIn("content   intact\n", self.succeed("info", match[1]).output)
-        tell("signal", "TERM, INT or USR1 to one rank, USR1 to mpirun", result.output.splitlines()[0])
+        tell("signal", "TERM, INT, HUP, XCPU, USR1 or USR2 to one rank, USR1 to mpirun", result.output.splitlines()[0])
+
+    def test_end_of_the_terminal_that_nohup_ignores(self):
+        """The run goes on to its end, without mpirun, which would have the signal back to its default."""
+        self.write("scene.toml", LONG)
+        run = Running(["nohup", str(PROGRAM), "run", "scene.toml", "--quiet", "--output", "nohup", "--set",
+                       "time.max_steps=400"], self.folder)
+        self.addCleanup(run.stop)
+        history = self.folder / "nohup/history.csv"
+        run.wait_for(lambda: history.exists() and history.read_text().count("\n") > 1)
+        run.process.send_signal(signal.SIGHUP)
+        result = run.finish(60)
+        self.assertEqual(result.code, 0, str(result))
+        self.assertIn("finished at step 400, ", result.output)
 
     def test_wall_time(self):
         begin = time.monotonic()

@@ -45,7 +45,7 @@ class Signals(unittest.TestCase):
             return output.split("\n")[:2], shell.returncode
 
     def test_a_signal_becomes_one_usr1_and_the_exit_code_is_kept(self):
-        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGXCPU, signal.SIGUSR1, signal.SIGUSR2):
             for code in (0, 3):
                 self.assertEqual(self.stop(number, code), (["USR1 1", "stopped 1"], code))
 
