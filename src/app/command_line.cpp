@@ -12,6 +12,24 @@ namespace poreshock {
 
 namespace {
 
+/// An option with nothing for a value is a slip, most often a variable of a script that is not set.
+void require_value(CLI::Option* option) {
+  option->check(CLI::Validator(
+      [](const std::string& value) {
+        return std::string(
+            value.empty() ? "found an empty text; give a value, or leave the option out" : "");
+      },
+      ""));
+}
+
+void require_values(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_items_expected_max() > 0) require_value(option);
+    }
+  }
+}
+
 void declare_scene(Command& command, CLI::App& app) {
   app.add_option("scene", command.file, "scene file (TOML)")->required();
   app.add_option("--set", command.overrides, "override a key, for example --set time.end=2e-7");
@@ -95,6 +113,7 @@ void declare_all(Command& command, CLI::App& app) {
   materials->callback([&command] { command.kind = CommandKind::materials; });
   CLI::App* keys = app.add_subcommand("keys", "list all keys of a scene as Markdown");
   keys->callback([&command] { command.kind = CommandKind::keys; });
+  require_values(app);
 }
 
 /// Names what stands where a command should; CLI11 only says that one is missing.

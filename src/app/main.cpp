@@ -50,14 +50,28 @@ int guarded(const poreshock::Command& command, MPI_Comm communicator, MPI_Comm f
   }
 }
 
+/// The exit code of a command whose result standard output has not taken, a full disk for example:
+/// a failure, unless there was another one before.
+int with_lost_output(int code) {
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!lost || code != static_cast<int>(poreshock::ExitCode::success)) return code;
+  std::fprintf(
+      stderr,
+      "poreshock: cannot write all of the result to standard output: make room, or give it "
+      "another place, and start again; the files of a run are not touched by this\n");
+  return static_cast<int>(poreshock::ExitCode::system_failure);
+}
+
 /// Reads the command line, starts MPI and runs the command; returns the exit code.
 int run(int argc, char** argv) {
   poreshock::Command command;
-  if (const auto code = poreshock::read_command_line(argc, argv, command)) return *code;
+  if (const auto code = poreshock::read_command_line(argc, argv, command)) {
+    return with_lost_output(*code);
+  }
   const poreshock::Runtime runtime(argc, argv);
   MPI_Comm farewell = MPI_COMM_NULL;
   MPI_Comm_dup(runtime.communicator(), &farewell);
-  const int code = guarded(command, runtime.communicator(), farewell);
+  const int code = with_lost_output(guarded(command, runtime.communicator(), farewell));
   MPI_Comm_free(&farewell);
   return code;
 }

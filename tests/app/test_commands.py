@@ -1,10 +1,12 @@
 """The commands that run nothing: check, sample, info, and the options that print and end."""
 import math
 import re
+import shutil
+import subprocess
 
 import numpy
 
-from program import ALUMINIUM, BALLS, POROUS, ProgramTest, datasets, flip_byte, particles
+from program import ALUMINIUM, BALLS, POROUS, PROGRAM, ProgramTest, datasets, flip_byte, particles
 
 
 class Commands(ProgramTest):
@@ -20,6 +22,22 @@ class Commands(ProgramTest):
                          r"^poreshock \d+\.\d+\.\d+ \(\S+\)\ncompiler   \S+ \d\S+, \w+\nflags      -\S.* -ffp-contract=off .*\n"
                          r"libraries  .*MPI.*, PETSc \d\S+ with \d\d-bit indices, HDF5 \d\S+, METIS \d\S+, Eigen \d\S+, "
                          r"toml\+\+ \d\S+, CLI11 \d\S+, libpng \d\S+\n$")
+
+    def test_a_full_disk_at_standard_output_is_a_failure(self):
+        """Of every command, without mpirun, which takes all that is printed."""
+        self.write("a.npy", "")
+        numpy.save(self.folder / "a.npy", numpy.arange(12.0).reshape(3, 4))
+        shutil.copytree(self.folder / "run", self.folder / "twin")
+        for command in (["--version"], ["--help"], ["run", "--help"], ["materials"], ["materials", "copper"], ["keys"],
+                        ["check", "porous.toml"], ["sample", "porous.toml", "--output", "full-sample"],
+                        ["info", "run/history.csv"], ["analyze", "a.npy", "--thresholds", "5"], ["compare", "run", "twin"],
+                        ["run", "porous.toml", "--output", "full", "--set", "time.max_steps=2"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = subprocess.run([PROGRAM, *command], cwd=self.folder, text=True, stdout=full, stderr=subprocess.PIPE,
+                                      check=False)
+            self.assertEqual(done.returncode, 4, f"{command}: {done.stderr}")
+            self.assertIn("poreshock: cannot write all of the result to standard output: make room", done.stderr)
+        self.assertTrue((self.folder / "full/timings.json").exists())
 
     def test_materials(self):
         names = self.succeed("materials").output.split("\n")

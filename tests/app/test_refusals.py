@@ -115,6 +115,16 @@ class RefusedCommandLines(ProgramTest):
     def test_option_without_value(self):
         self.refuse_line("--output: 1 required", "run", "scene.toml", "--output")
 
+    def test_empty_value(self):
+        """As from a variable of a script that is not set."""
+        told = "found an empty text; give a value, or leave the option out"
+        for option in ("--restart", "--output", "--wall-time", "--set"):
+            self.refuse_line(f"{option}: {told}", "run", "scene.toml", option, "")
+        self.refuse_line(f"--output: {told}", "sample", "scene.toml", "--output", "")
+        self.refuse_line(f"--hot-spots: {told}", "analyze", "a.npy", "--hot-spots", "")
+        self.refuse_line(f"--output: {told}", "compare", "a", "b", "--output", "")
+        self.refuse_line(f"scene: {told}", "check", "")
+
     def test_negative_wall_time(self):
         self.refuse_line("poreshock: --wall-time: found -5.000000, allowed a number >= 0 (s), 0 = no limit\n", "run",
                          "scene.toml", "--wall-time", "-5")
