@@ -172,13 +172,11 @@ std::vector<std::int8_t> colour_grains(std::int32_t grains, const std::vector<Gr
     }
     const auto free = std::find(taken.begin(), taken.end(), false);
     if (free == taken.end()) {
-      throw StateError("grain " + std::to_string(grain) + " is near " +
-                       std::to_string(near[static_cast<std::size_t>(grain)].size()) +
-                       " others, grain " +
-                       std::to_string(near[static_cast<std::size_t>(grain)].front()) +
-                       " among them, and all " + std::to_string(most_colours) +
-                       " velocity fields are taken there. Grains so close must be at least about "
-                       "two cells across: set domain.cell finer, or make the grains larger.");
+      throw StateError(
+          "grain " + std::to_string(grain) + " is near " +
+          std::to_string(near[static_cast<std::size_t>(grain)].size()) + " others, grain " +
+          std::to_string(near[static_cast<std::size_t>(grain)].front()) + " among them, and all " +
+          std::to_string(most_colours) + " velocity fields are taken there");
     }
     colour[static_cast<std::size_t>(grain)] = static_cast<std::int8_t>(free - taken.begin());
   }

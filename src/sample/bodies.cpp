@@ -43,6 +43,23 @@ bool in_polygon(const std::vector<Triple>& points, const Triple& p) {
   return inside;
 }
 
+double squared_distance_to_edge(const Triple& a, const Triple& b, const Triple& p) {
+  const double x = b[0] - a[0], y = b[1] - a[1];
+  const double square = x * x + y * y;
+  const double along = (p[0] - a[0]) * x + (p[1] - a[1]) * y;
+  const double t = square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+  const double dx = a[0] + t * x - p[0], dy = a[1] + t * y - p[1];
+  return dx * dx + dy * dy;
+}
+
+bool is_near_edge(const std::vector<Triple>& points, const Triple& p, double distance) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Triple& next = points[(i + 1) % points.size()];
+    if (squared_distance_to_edge(points[i], next, p) <= distance * distance) return true;
+  }
+  return false;
+}
+
 void require_flat(int dimension) {
   if (dimension == 2) return;
   throw InputError(
@@ -96,6 +113,29 @@ bool contains(const Region& region, const Triple& point, int dimension) {
     case BodyShape::polygon:
       require_flat(dimension);
       return in_polygon(region.points, point);
+  }
+  return false;
+}
+
+bool lies_within(const Region& region, const Triple& point, double depth, int dimension) {
+  switch (region.shape) {
+    case BodyShape::disc:
+    case BodyShape::ring: {
+      const double radius = std::sqrt(squared_radius(region, point, dimension));
+      return radius < region.radius - depth &&
+             (region.shape == BodyShape::disc || radius > region.inner_radius + depth);
+    }
+    case BodyShape::box:
+      for (int axis = 0; axis < dimension; ++axis) {
+        if (point[axis] <= region.low[axis] + depth) return false;
+        if (point[axis] >= region.high[axis] - depth) return false;
+      }
+      return true;
+    case BodyShape::polygon:
+      require_flat(dimension);
+      return depth < 0.0
+                 ? in_polygon(region.points, point) || is_near_edge(region.points, point, -depth)
+                 : in_polygon(region.points, point) && !is_near_edge(region.points, point, depth);
   }
   return false;
 }

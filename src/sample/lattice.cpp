@@ -158,13 +158,15 @@ namespace {
   std::string place = length_text(position[0]) + ", " + length_text(position[1]);
   if (scene.dimension == 3) place += ", " + length_text(position[2]);
   throw InputError(body(a) + " and " + body(b) + " overlap, for example at (" + place +
-                   "). Allowed are bodies of different grains that have no point in common. Move "
+                   "). Allowed are bodies of different grains that at most touch. Move "
                    "one, or give both the same grain to make them one piece.");
 }
 
 }  // namespace
 
 void require_apart(const Scene& scene, const Lattice& lattice) {
+  const double depth = surface_depth(lattice);
+  const int dimension = scene.dimension;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Box box_b = bounding_box(scene.bodies[b].region);
     for (std::size_t a = 0; a < b; ++a) {
@@ -180,8 +182,13 @@ void require_apart(const Scene& scene, const Lattice& lattice) {
       const LatticeRange all{0, lattice.layers()};
       for_each_site(lattice, all, both.low, both.high, {false, false},
                     [&](std::size_t, const Triple& position) {
-                      if (contains(scene.bodies[a].region, position, scene.dimension) &&
-                          contains(scene.bodies[b].region, position, scene.dimension)) {
+                      const Region& one = scene.bodies[a].region;
+                      const Region& other = scene.bodies[b].region;
+                      const bool overlap = (lies_within(one, position, depth, dimension) &&
+                                            lies_within(other, position, -depth, dimension)) ||
+                                           (lies_within(one, position, -depth, dimension) &&
+                                            lies_within(other, position, depth, dimension));
+                      if (overlap) {
                         throw_overlap(scene, a, b, position);
                       }
                     });

@@ -66,8 +66,14 @@ void for_each_block_site(const Lattice& lattice, LatticeRange range, Visit&& vis
   }
 }
 
-/// Throws InputError that names the bodies and a site when two bodies of different grains share a
-/// site of the lattice. Works on the whole lattice, the same on every rank.
+/// Distance from a surface below which a site lies on it, m: bodies that touch have sites there.
+inline double surface_depth(const Lattice& lattice) {
+  return 1e-3 * lattice.spacing;
+}
+
+/// Throws InputError that names the bodies and a site when a site of the lattice lies in two
+/// bodies of different grains; one on the surface of both is no overlap. Works on the whole
+/// lattice, the same on every rank.
 void require_apart(const Scene& scene, const Lattice& lattice);
 
 /// Gives the sites of the range that lie in the region to `owner`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "crowded_grains.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/solver/simulation.hpp"
@@ -176,7 +177,12 @@ void split_by_colour(Simulation<Dim>& sim) {
   // Two grains share a node when their cells are less than a stencil apart. What a grain adds to
   // a node does not depend on its colour, so colours may change from step to step.
   const int reach = sim.grid->shape().stencil - 1;
-  all.colours = colour_grains(all.grains, near_grains(grain_cells(sim), reach, *sim.grid));
+  const std::vector<GrainPair> near = near_grains(grain_cells(sim), reach, *sim.grid);
+  try {
+    all.colours = colour_grains(all.grains, near);
+  } catch (const StateError& crowd) {
+    throw_crowded(crowd, sim);
+  }
   make_fields(1 + *std::max_element(all.colours.begin(), all.colours.end()), sim);
   if (all.fields.empty()) return;
   split(

@@ -8,6 +8,44 @@ BED = (POROUS.replace('kind = "random_voids"', 'kind = "packed_grains"').replace
        .replace("void_radius = 25e-6", "grain_radius = 25e-6\ngrain_spread = 0.2")
        .replace("ligament = 10e-6\nkeep_out = 10e-6\n", "").replace("[checkpoint]", "[contact]\nfriction = 0.3\n[checkpoint]"))
 
+# Balls of four cells across, of two materials in a box.
+BALLS_BED = """
+[domain]
+size = [0.1e-3, 0.1e-3, 0.2e-3]
+cell = 10e-6
+periodic = [true, false]
+[boundary]
+low = "wall"
+lateral = "symmetry"
+[[material]]
+name = "copper"
+[sample]
+kind = "packed_grains"
+height = 0.15e-3
+grain_radius = 20e-6
+porosity = 0.5
+[loading]
+velocity = 800
+[time]
+end = 20e-9
+"""
+
+
+class CrowdedGrains(ProgramTest):
+    def test_small_balls_are_a_fault_of_the_scene(self):
+        """More neighbours than velocity fields: said before anything runs, with the cell that helps."""
+        self.write("balls.toml", BALLS_BED)
+        for command in (["check", "balls.toml"], ["run", "balls.toml", "--output", "out"], ["sample", "balls.toml"]):
+            message = self.message(2, *command, ranks=2)
+            self.assertRegex(message, r"^at the start grain \d+ is near \d+ others, grain \d+ among them, and all 8 velocity fields "
+                             r"are taken there; grains are near each other where less than 4 cells lie between their "
+                             r"particles, and these are 3\.\d+ cells across\. Set domain\.cell to 4\.\d+e-06 m or less, raise "
+                             r"sample\.porosity or sample\.grain_gap, make the grains larger, or take a transfer\.shape of a "
+                             r"narrower stencil\.$")
+        self.assertFalse((self.folder / "out").exists())
+        self.assertIn("3 cells lie between", self.message(2, "check", "balls.toml", "--set", "transfer.shape=quadratic"))
+        self.succeed("check", "balls.toml", "--set", "domain.cell=4e-6")
+
 
 class Grains(ProgramTest):
     @classmethod

@@ -122,7 +122,6 @@ TEST(GrainColours, EightMeetAndNineAreRefused) {
     const std::string text = error.what();
     EXPECT_NE(text.find("near 8 others"), std::string::npos) << text;
     EXPECT_NE(text.find("all 8 velocity fields are taken"), std::string::npos) << text;
-    EXPECT_NE(text.find("domain.cell finer"), std::string::npos) << text;
   }
 }
 

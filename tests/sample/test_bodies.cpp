@@ -70,5 +70,31 @@ TEST(Bodies, ConcavePolygonFollowsTheEvenOddRule) {
   EXPECT_THROW(measure(polygon, 3), InputError);
 }
 
+TEST(Bodies, LyingWithinLeavesOutWhatIsNearTheSurface) {
+  const Region disc = make_region(BodyShape::disc), ring = make_region(BodyShape::ring);
+  const Region box = make_region(BodyShape::box);
+  EXPECT_TRUE(lies_within(disc, {1.48, 2.0, 9.0}, 0.01, 2));
+  EXPECT_FALSE(lies_within(disc, {1.495, 2.0, 9.0}, 0.01, 2));
+  EXPECT_FALSE(lies_within(disc, {1.48, 2.0, 9.0}, 0.01, 3));
+  EXPECT_TRUE(lies_within(ring, {1.27, 2.0, 3.0}, 0.01, 3));
+  EXPECT_FALSE(lies_within(ring, {1.255, 2.0, 3.0}, 0.01, 3));
+  EXPECT_FALSE(lies_within(box, {0.005, 2.0, 3.0}, 0.01, 3));
+  EXPECT_FALSE(lies_within(box, {1.0, 3.995, 3.0}, 0.01, 3));
+  EXPECT_TRUE(lies_within(box, {0.02, 3.98, 2.02}, 0.01, 3));
+  Region polygon;
+  polygon.shape = BodyShape::polygon;
+  polygon.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  EXPECT_FALSE(lies_within(polygon, {1.0, 1.0, 0}, 1e-9, 2));
+  EXPECT_FALSE(lies_within(polygon, {0.995, 0.995, 0}, 0.01, 2));
+  EXPECT_TRUE(lies_within(polygon, {0.98, 0.98, 0}, 0.01, 2));
+  EXPECT_FALSE(lies_within(polygon, {1.01, 1.01, 0}, 0.01, 2));
+  EXPECT_FALSE(lies_within(polygon, {1.01, 1.01, 0}, -0.01, 2));
+  EXPECT_TRUE(lies_within(polygon, {1.005, 1.005, 0}, -0.01, 2));
+  EXPECT_TRUE(lies_within(polygon, {0.5, 0.5, 0}, -0.01, 2));
+  EXPECT_TRUE(lies_within(disc, {1.505, 2.0, 3.0}, -0.01, 3));
+  EXPECT_TRUE(lies_within(ring, {1.245, 2.0, 3.0}, -0.01, 3));
+  EXPECT_TRUE(lies_within(box, {-0.005, 4.005, 3.0}, -0.01, 3));
+}
+
 }  // namespace
 }  // namespace poreshock

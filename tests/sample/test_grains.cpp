@@ -210,6 +210,52 @@ TEST(Grains, OverlappingBodiesOfTwoGrainsAreRefused) {
   EXPECT_EQ(error_of(scene), "");
 }
 
+/// Text of the error of two regions as bodies of two grains.
+std::string error_of_two(const Region& one, const Region& other, int dimension = 2) {
+  Scene scene =
+      dimension == 2 ? testing::plane_scene(1e-3, 0.0) : testing::space_scene(0.4e-3, 0.0);
+  scene.sample.kind = SampleKind::none;
+  scene.bodies.resize(2);
+  scene.bodies[0].region = one;
+  scene.bodies[1].region = other;
+  scene.bodies[0].grain = 1;
+  scene.bodies[1].grain = 2;
+  return error_of(scene);
+}
+
+Region box_of(const Triple& low, const Triple& high) {
+  return {.shape = BodyShape::box, .low = low, .high = high, .points = {}};
+}
+
+Region polygon_of(std::vector<Triple> points) {
+  return {.shape = BodyShape::polygon, .points = std::move(points)};
+}
+
+TEST(Grains, BodiesThatTouchWhereSitesLieDoNotOverlap) {
+  // Sites lie at 2.5 um, 7.5 um, ...
+  const Region lower = box_of({1e-4, 1e-4, 1e-4}, {3e-4, 2.025e-4, 3e-4});
+  const Region upper = box_of({1e-4, 2.025e-4, 1e-4}, {3e-4, 3e-4, 3e-4});
+  for (const int dimension : {2, 3}) EXPECT_EQ(error_of_two(lower, upper, dimension), "");
+  Region higher = upper;
+  higher.low[1] -= 4e-9;  // a face to four digits: less than a thousandth of a site
+  EXPECT_EQ(error_of_two(lower, higher), "");
+  higher.low[1] = 2.02e-4;
+  EXPECT_NE(error_of_two(lower, higher), "");
+  const Region left = polygon_of({{1e-4, 1e-4, 0}, {9e-4, 1e-4, 0}, {1e-4, 9e-4, 0}});
+  EXPECT_EQ(error_of_two(left, polygon_of({{9e-4, 1e-4, 0}, {9e-4, 9e-4, 0}, {1e-4, 9e-4, 0}})),
+            "");
+  const Region disc = {.center = {3.025e-4, 3.025e-4, 3.025e-4}, .radius = 1e-4, .points = {}};
+  const Region ring = {.shape = BodyShape::ring,
+                       .center = disc.center,
+                       .radius = 1.5e-4,
+                       .inner_radius = 1e-4,
+                       .points = {}};
+  for (const int dimension : {2, 3}) EXPECT_EQ(error_of_two(disc, ring, dimension), "");
+  Region larger = disc;
+  larger.radius = 1.03e-4;
+  for (const int dimension : {2, 3}) EXPECT_NE(error_of_two(larger, ring, dimension), "");
+}
+
 TEST(Islands, BecomeGrains) {
   Scene scene = testing::plane_scene(1e-3, 0.6);
   scene.sample.overlap = true;

@@ -8,6 +8,10 @@ namespace poreshock {
 /// True when the point lies in the closed region. dimension 2 ignores the third coordinate.
 bool contains(const Region& region, const Triple& point, int dimension);
 
+/// True when the point lies in the region, farther than `depth` (m) from its surface; with a
+/// negative depth also when it lies outside, less than that away.
+bool lies_within(const Region& region, const Triple& point, double depth, int dimension);
+
 /// Centroid of the region, m.
 Triple centroid(const Region& region, int dimension);
 
