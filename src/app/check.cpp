@@ -76,7 +76,7 @@ void check(const Scene& scene, MPI_Comm communicator) {
   print_sample(scene, sim.sample);
   print_conduction(scene, e);
   std::printf("typical time step       %.3g s, about %.0f steps\n",
-              std::min(e.mechanical_step, e.conduction_step), e.steps);
+              std::min({e.mechanical_step, e.conduction_step, scene.output.beat}), e.steps);
   const double of_particles = static_cast<double>(sim.sample.particles) * e.particle_bytes;
   std::printf(
       "memory                  %.0f MB for particles (%.0f bytes each), %.0f MB for nodes\n",

@@ -22,6 +22,12 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string whole_number(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f", value);
+  return text;
+}
+
 std::string gigabytes(double bytes) {
   return short_number(bytes * 1e-9) + " GB";
 }
@@ -83,6 +89,30 @@ std::string memory_sentence(const Scene& scene, double bytes, const Resources& r
          gigabytes(resources.memory) + ". Set domain.cell to " +
          short_number(scene.domain.cell * coarser) +
          " m or more, lower sample.particles_per_cell, or start on more machines.";
+}
+
+/// Steps of this size (s) until the end when each beat is landed on.
+double steps_on_beats(const Scene& scene, double step) {
+  constexpr double rounding = 1e-9;
+  const double beats = std::floor(scene.time.end / scene.output.beat * (1.0 + rounding));
+  const double rest = scene.time.end - beats * scene.output.beat;
+  const double last = rest > rounding * scene.output.beat ? std::ceil(rest / step) : 0.0;
+  return beats * std::ceil(scene.output.beat / step * (1.0 - rounding)) + last;
+}
+
+void warn_beat(const Scene& scene, const RunEstimate& estimate,
+               std::vector<std::string>& warnings) {
+  constexpr double noticed = 1.25;
+  const double step = std::min(estimate.mechanical_step, estimate.conduction_step);
+  const double steps = steps_on_beats(scene, step);
+  if (steps < noticed * estimate.free_steps) return;
+  warnings.push_back("output.beat = " + short_number(scene.output.beat) +
+                     " s sets the time step, which else were about " + short_number(step) +
+                     " s: steps land on its multiples, and " + whole_number(steps) +
+                     " of them reach time.end instead of " + whole_number(estimate.free_steps) +
+                     ". Set output.beat to " + short_number(10.0 * step) +
+                     " s or more; output.snapshot, history and the other cadences are whole "
+                     "multiples of it.");
 }
 
 void warn_conduction(const Scene& scene, const RunEstimate& estimate,
@@ -150,7 +180,9 @@ RunEstimate estimate_run(const Simulation<Dim>& sim) {
   RunEstimate e;
   e.mechanical_step = mechanical_step(sim);
   e.conduction_step = sim.conduction_limit;
-  e.steps = std::ceil(scene.time.end / std::min(e.mechanical_step, e.conduction_step));
+  const double step = std::min(e.mechanical_step, e.conduction_step);
+  e.free_steps = std::ceil(scene.time.end / step);
+  e.steps = steps_on_beats(scene, step);
   if (scene.time.max_steps > 0) {
     e.steps = std::min(e.steps, static_cast<double>(scene.time.max_steps));
   }
@@ -192,6 +224,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
                                       const Resources& resources) {
   constexpr double day = 86400.0;
   std::vector<std::string> warnings;
+  warn_beat(scene, estimate, warnings);
   warn_conduction(scene, estimate, warnings);
   if (estimate.memory > resources.memory) {
     warnings.push_back(memory_sentence(scene, estimate.memory, resources));

@@ -12,9 +12,10 @@ namespace poreshock {
 
 /// Estimated before the run.
 struct RunEstimate {
-  double mechanical_step = 0.0;  ///< s, typical step of the motion
-  double conduction_step = 0.0;  ///< s, largest stable one of heat conduction
-  double steps = 0.0;
+  double mechanical_step = 0.0;   ///< s, typical step of the motion
+  double conduction_step = 0.0;   ///< s, largest stable one of heat conduction
+  double free_steps = 0.0;        ///< that these two ask for
+  double steps = 0.0;             ///< with those that the beat adds
   double particle_bytes = 0.0;    ///< memory of one particle
   double memory = 0.0;            ///< bytes, of all ranks
   double snapshots = 0.0;         ///< how many

@@ -86,7 +86,7 @@ class Commands(ProgramTest):
         sound = 1.2 * math.sqrt(5350.0**2 + 4.0 / 3.0 * shear / 2700.0)
         wave = 1500.0 + 0.6 * sound + math.hypot(0.6 * sound, sound)
         step = 0.35 * 10e-6 / (1.6 * wave)
-        self.assertIn(f"\ntypical time step       {step:.3g} s, about {math.ceil(20e-9 / step)} steps\n", text)
+        self.assertIn(f"\ntypical time step       {step:.3g} s, about {8 * math.ceil(2.5e-9 / step)} steps\n", text)
         self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
         self.assertRegex(text, r"\ndisk                    \d+ MB for 3 snapshots, \d+ MB a checkpoint\n")
         self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 4\.0 million particle-steps")
@@ -106,7 +106,7 @@ class Commands(ProgramTest):
         self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 5\.\d+ days on 1 ranks\. Start it on more, end "
                          r"it earlier with time\.end, or set domain\.cell to 1\.7\d+e-05 m for one day\.$")
         # A thousand million snapshots of half a megabyte.
-        self.assertRegex(*self.warning("time.end=1e-3", "output.beat=1e-12", "output.snapshot=1e-12"),
+        self.assertRegex(self.warning("time.end=1e-3", "output.beat=1e-12", "output.snapshot=1e-12")[1],
                          r"^The files of the run need about \S+ GB, 1e\+09 snapshots of \S+ GB among them; this disk has \S+ GB "
                          r"left\. Raise output\.snapshot, name fewer output\.fields, set output\.precision = \"single\", or "
                          r"lower checkpoint\.keep\.$")
@@ -114,6 +114,21 @@ class Commands(ProgramTest):
                                       "sample.particles_per_cell=8"),
                          r"The run needs about \S+ GB of memory, here are \S+ GB\. Set domain\.cell to \S+ m or more, lower "
                          r"sample\.particles_per_cell, or start on more machines\.")
+
+    def test_check_counts_the_steps_that_the_beat_asks_for(self):
+        def told(*changes):
+            options = [word for change in changes for word in ("--set", change)]
+            text = self.succeed("check", "porous.toml", "--set", "output.snapshot=0", "--set", "morphology.every=0", *options).output
+            steps = int(re.search(r"\ntypical time step       \S+ s, about (\d+) steps\n", text)[1])
+            return steps, re.findall(r"^warning: (output\.beat .*)$", text, re.M)
+
+        self.assertEqual(told("output.beat=1e-12")[0], 20000)
+        self.assertEqual(told("output.beat=1e-15")[0], 20000000)
+        self.assertEqual(told("output.beat=1e-12", "time.max_steps=7")[0], 7)
+        self.assertRegex(*told("output.beat=5e-11")[1],
+                         r"^output\.beat = 5e-11 s sets the time step, which else were about (1\.\d+e-10) s: steps land on its "
+                         r"multiples, and 400 of them reach time\.end instead of \d+\. Set output\.beat to 1\.\d+e-09 s or more; ")
+        self.assertEqual(told("output.beat=20e-9")[1], [])
 
     def test_check_warns_of_conduction(self):
         conductivity = "material.0.conductivity=237"
