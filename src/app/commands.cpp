@@ -86,6 +86,29 @@ void require_same_run(const Scene& now, const CheckpointHeader& header, const st
       "cannot go on in the same folder: keep them, or choose another folder with --output");
 }
 
+/// A run that would end before its checkpoint has nothing to compute, and much to cut off.
+void require_time_left(const Scene& scene, const CheckpointHeader& header,
+                       const std::string& path) {
+  constexpr double rounding = 1e-9;
+  const TimeControl& limits = scene.time;
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return std::string(text);
+  };
+  const std::string advice =
+      "; nothing was changed. Raise it, or name an earlier checkpoint with --restart FILE";
+  if (limits.end < header.time * (1.0 - rounding)) {
+    throw InputError("time.end: found " + number(limits.end) + " s, allowed at least the time of " +
+                     path + ", " + number(header.time) + " s" + advice);
+  }
+  if (limits.max_steps > 0 && limits.max_steps < header.step) {
+    throw InputError("time.max_steps: found " + std::to_string(limits.max_steps) +
+                     ", allowed 0 or at least the step of " + path + ", " +
+                     std::to_string(header.step) + advice);
+  }
+}
+
 /// A checkpoint from elsewhere does not make an existing folder ours to go on in.
 bool lies_in(const std::string& file, const std::string& folder) {
   std::error_code none;
@@ -139,8 +162,9 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
     int continues = lies_in(options.restart, options.folder) ? 1 : 0;
     check_mpi(MPI_Bcast(&continues, 1, MPI_INT, 0, communicator), "MPI_Bcast");
     options.continues = continues == 1;
-    require_same_run(scene, checkpoint_header(options.restart, communicator), options.restart,
-                     options.continues);
+    const CheckpointHeader header = checkpoint_header(options.restart, communicator);
+    require_same_run(scene, header, options.restart, options.continues);
+    require_time_left(scene, header, options.restart);
   }
   require_output_folder(options.folder, options.force, options.continues, communicator);
   catch_stop_signals();

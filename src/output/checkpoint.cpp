@@ -53,6 +53,7 @@ FileSpec file_spec(const std::string& scene_text, const RunState& state,
   spec.attributes.push_back({"conducted_heat", std::int64_t{particles.options.conducted_heat}});
   spec.attributes.push_back({"failed", std::int64_t{particles.options.failed}});
   spec.attributes.push_back({"facing", std::int64_t{particles.options.facing}});
+  if (state.first_total) spec.attributes.push_back({"first_total", *state.first_total});
   spec.datasets.push_back({integers_path, NumberType::int64, {state.integers.size()}, "1", {}});
   for_each_column(particles, [&](std::string_view name, int component, const auto& column) {
     spec.datasets.push_back({column_path(name, component),
@@ -90,6 +91,7 @@ RunState read_state(Hdf5File& file) {
   state.last_dt = file.number("last_dt");
   state.beat = file.integer("beat");
   state.record = file.integer("record");
+  if (file.attribute("first_total")) state.first_total = file.number("first_total");
   state.integers = file.read_all<std::int64_t>(integers_path);
   return state;
 }

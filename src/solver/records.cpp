@@ -85,7 +85,7 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   if (has_contact(sim)) row.contact = contact_row(sim);
   const auto write = [history = recorder.history, row] { history->write(row); };
   write_or_wait({"a row of history.csv", write}, recorder.backlog, sim.communicator);
-  if (!recorder.first_total) recorder.first_total = row.total;
+  if (!sim.ledger.first_total) sim.ledger.first_total = row.total;
   recorder.last_row = row;
 }
 

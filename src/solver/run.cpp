@@ -26,9 +26,9 @@ constexpr std::int64_t rebalance_interval = 100;
 constexpr double seconds_between_rows = 2.0;
 
 template <int Dim>
-EnergyStatus energy_status(const Recorder<Dim>& recorder) {
+EnergyStatus energy_status(const Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
   const HistoryRow& row = recorder.last_row;
-  const double first = recorder.first_total.value_or(row.total);
+  const double first = sim.ledger.first_total.value_or(row.total);
   return {row.kinetic, row.internal, first != 0.0 ? row.total / first - 1.0 : 0.0};
 }
 
@@ -47,7 +47,7 @@ void show_progress(ProgressRows rows, const Simulation<Dim>& sim, const Recorder
   int late = (rows == ProgressRows::every_beat ? sim.clock.on_beat : waited) ? 1 : 0;
   check_mpi(MPI_Bcast(&late, 1, MPI_INT, 0, sim.communicator), "MPI_Bcast");
   if (late == 0) return;
-  const std::string row = progress_row(sim.clock, sim.scene.time.end, energy_status(recorder),
+  const std::string row = progress_row(sim.clock, sim.scene.time.end, energy_status(sim, recorder),
                                        sim.phases, progress, sim.communicator);
   if (rank(sim.communicator) == 0) std::printf("%s\n", row.c_str()), std::fflush(stdout);
 }
@@ -112,7 +112,7 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
       "energy drift %.1e, guards: compression %lld, sound speed %lld, wall %lld, temperature %lld, "
       "pixel %lld; "
       "escaped particles %lld (%.6g %s); checksum %016llx\n",
-      energy_status(recorder).drift, static_cast<long long>(guards[0]),
+      energy_status(sim, recorder).drift, static_cast<long long>(guards[0]),
       static_cast<long long>(guards[1]), static_cast<long long>(guards[2]),
       static_cast<long long>(guards[3]), static_cast<long long>(guards[4]),
       static_cast<long long>(guards[5]), static_cast<double>(escaped[0]) * mass_quantum(l),

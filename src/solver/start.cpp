@@ -128,6 +128,7 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
              std::bit_cast<double>(state.integers.at(3)), sim.ledger);
   sim.ledger.row_time = std::bit_cast<double>(state.integers.at(4));
   restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
+  sim.ledger.first_total = state.first_total;
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   find_grains(sim);
   distribute(sim);
@@ -144,6 +145,7 @@ RunState run_state(const Simulation<Dim>& sim) {
   state.last_dt = sim.clock.allowed;
   state.beat = sim.clock.beat;
   state.record = sim.clock.beat + 1;
+  state.first_total = sim.ledger.first_total;
   // Before agree_on_step every rank knows only its own particles' limit; the next step needs all.
   double limit = sim.clock.limit;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MIN, sim.communicator),

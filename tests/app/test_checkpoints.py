@@ -61,6 +61,17 @@ class Restart(ProgramTest):
             self.assertTrue(result.output.startswith(f"restart from {name}/checkpoint_000000050.h5\n"), str(result))
             self.assert_whole(name, result)
 
+    def test_energy_drift_counts_from_the_start_of_the_run(self):
+        """That of the first row ever to the last, as the whole run has it."""
+        total = history(self.folder / "whole/history.csv")["total"]
+        self.write("drift.toml", POROUS.replace("every_steps = 25", "every_steps = 75"))
+        self.run_scene("drift.toml", "late", "--set", "time.max_steps=76")
+        for output in ("late", "late-elsewhere"):
+            result = self.run_scene("porous.toml", output, "--restart", "late/checkpoint_000000075.h5", ranks=2)
+            self.assertIn(f"energy drift {total[-1] / total[0] - 1.0:.1e}, ", result.output)
+        with h5py.File(self.folder / "late/checkpoint_000000075.h5") as file:
+            self.assertEqual(file.attrs["first_total"], total[0])
+
     def test_from_an_older_checkpoint_by_name(self):
         name = self.copy("older")
         result = self.run_scene("porous.toml", name, "--restart", f"{name}/checkpoint_000000025.h5", ranks=2)

@@ -1,6 +1,8 @@
 """Exit 2: a checkpoint a run cannot go on from; and what the folder holds is kept."""
 import shutil
 
+import h5py
+
 from faults import tell
 from program import BALLS, DISC, POROUS, ProgramTest, flip_byte
 
@@ -90,6 +92,18 @@ class RefusedRestart(ProgramTest):
                             "pixel, which cannot go on in the same folder: keep them, or choose another folder with "
                             "--output", "latest", *other)
         self.run_scene("porous.toml", "elsewhere", "--restart", self.checkpoint, *other, "--set", "time.end=10e-9")
+
+    def test_end_before_the_checkpoint(self):
+        with h5py.File(self.folder / self.checkpoint) as file:
+            time = file.attrs["time"]
+        advice = "; nothing was changed. Raise it, or name an earlier checkpoint with --restart FILE"
+        for restart in ("latest", self.checkpoint):
+            self.refuse_restart(f"time.end: found 1e-09 s, allowed at least the time of {self.checkpoint}, {time:.9g} s{advice}",
+                                restart, "--set", "time.end=1e-9", ranks=2)
+            self.refuse_restart(f"time.max_steps: found 24, allowed 0 or at least the step of {self.checkpoint}, 25{advice}",
+                                restart, "--set", "time.max_steps=24")
+        self.refuse_restart(f"time.end: found 1e-09 s, allowed at least the time of {self.checkpoint}, {time:.9g} s{advice}",
+                            self.checkpoint, "--set", "time.end=1e-9", output="elsewhere")
 
     def test_existing_folder_of_another_run(self):
         self.write("other.toml", POROUS)

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct RunState {
   std::int64_t beat = 0;               ///< index of the last beat landed on
   std::int64_t record = 0;             ///< number of the next record
   std::vector<std::int64_t> integers;  ///< accumulators, opaque here
+  std::optional<double> first_total;   ///< J, energy at the start of the run; files older than it
+                                       ///< do not tell
 
   bool operator==(const RunState&) const = default;
 };

@@ -43,8 +43,8 @@ template <int Dim>
 void find_grains(Simulation<Dim>& sim);
 
 /// After the sort: colours the grains by their cells and splits the particles by colour. Throws
-/// StateError, before the first step InputError, when a place needs too many colours. Nothing with a single grain. Collective (four
-/// gathers of what is small).
+/// StateError, before the first step InputError, when a place needs too many colours. Nothing with
+/// a single grain. Collective (four gathers of what is small).
 template <int Dim>
 void split_by_colour(Simulation<Dim>& sim);
 

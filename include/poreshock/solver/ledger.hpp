@@ -32,6 +32,7 @@ struct Ledger {
   std::int64_t escaped_particles = 0;
   Int128 row_wall_impulse = 0;  ///< along the shock axis, when the last history row was written
   double row_time = 0.0;        ///< s, of the last history row
+  std::optional<double> first_total;  ///< J, total energy of the first history row of the run
   Guards guards;
 };
 

@@ -19,7 +19,6 @@ struct Recorder {
   std::shared_ptr<HistoryWriter> history;  ///< shared with rows that wait
   std::unique_ptr<PixelGrid<Dim>> pixels;  ///< only with morphology
   HistoryRow last_row;                     ///< latest row of the history
-  std::optional<double> first_total;       ///< J, total energy of the first row of this run
   double last_checkpoint_wall = 0.0;       ///< s
   std::int64_t last_checkpoint_step = -1;
   std::int64_t first_unforced = 0;  ///< earlier records were forced to disk with a checkpoint
