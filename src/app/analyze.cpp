@@ -188,6 +188,7 @@ void analyze(const AnalyzeOptions& options, MPI_Comm communicator) {
   const bool written = !options.output.empty();
   if (written) require_output_folder(options.output, options.force, false, communicator);
   bool prepared = false;
+  std::unique_ptr<FolderLock> lock;
   std::set<std::int64_t> numbers;
   for (const std::string& name : options.files) {
     const auto number = static_cast<std::int64_t>(numbers.size());
@@ -200,7 +201,9 @@ void analyze(const AnalyzeOptions& options, MPI_Comm communicator) {
     if (rank(communicator) == 0) print(name, measured);
     if (!written) continue;
     // Not before the first file has been read: a wrong name costs no earlier result.
-    if (!prepared) prepare_output_folder(options.output, options.force, false, communicator);
+    if (!prepared) {
+      lock = prepare_output_folder(options.output, options.force, false, communicator);
+    }
     prepared = true;
     write_morphology(options.output + "/" + morphology_name(measured.stamp.record), measured.stamp,
                      {measured.record}, communicator);

@@ -94,7 +94,7 @@ void check(const Scene& scene, MPI_Comm communicator) {
 template <int Dim>
 void sample(const Scene& scene, const std::string& folder, bool force, MPI_Comm communicator) {
   const Simulation<Dim> sim = start<Dim>(scene, communicator);
-  prepare_output_folder(folder, force, false, communicator);
+  const auto lock = prepare_output_folder(folder, force, false, communicator);
   write_snapshot<Dim>(folder + "/" + snapshot_name(0),
                       {sim.scene, sim.scene_text, sim.materials, sim.particles, 0, 0, 0.0},
                       communicator);

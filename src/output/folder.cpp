@@ -9,6 +9,7 @@
 
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/scene/read_scene.hpp"
 
 namespace poreshock {
 
@@ -41,43 +42,61 @@ void for_each_own_file(const std::string& folder, const std::string& ending, Vis
   }
 }
 
-void check_writable(const std::string& folder) {
-  const std::string probe = folder + "/.poreshock_probe";
-  try {
-    FileDescriptor(probe, O_WRONLY | O_CREAT | O_TRUNC).sync();
-    remove_file(probe);
-  } catch (const SystemError& failure) {
-    throw InputError("output folder " + folder + ": not writable: " + failure.what());
-  }
+/// True for a scene.toml that a run has written, or for none; another one is the user's.
+bool has_own_scene(const std::string& folder) {
+  const std::string path = folder + "/scene.toml";
+  std::error_code error;
+  return !fs::exists(path, error) || read_text(path).starts_with(resolved_scene_mark);
+}
+
+bool holds_nothing(const std::string& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const auto& entry) { return entry.path().filename() == folder_lock_name; });
 }
 
 /// True when the folder exists and may be used; throws when it may not.
 bool usable(const std::string& path, bool force, bool restart) {
   std::error_code error;
-  const bool exists = fs::exists(fs::symlink_status(path, error));
-  if (exists && !fs::is_directory(path, error)) {
-    throw InputError("output folder " + path + ": exists and is not a folder; choose another name");
+  const std::string folder = "output folder " + path + ": ";
+  if (!fs::exists(fs::symlink_status(path, error))) return false;
+  if (!fs::is_directory(path, error)) {
+    throw InputError(folder + "exists and is not a folder; choose another name");
   }
-  if (exists && !force && !restart) {
-    throw InputError("output folder " + path +
-                     ": exists already; choose another with --output, overwrite it with --force, "
+  require_unlocked(path);
+  if (!has_own_scene(path)) {
+    throw InputError(folder +
+                     "its scene.toml was not written by a run, which would put its own in the "
+                     "place; choose another folder with --output, or rename that file");
+  }
+  if (!force && !restart && !holds_nothing(path)) {
+    throw InputError(folder +
+                     "exists already; choose another with --output, overwrite it with --force, "
                      "or go on from a checkpoint in it with --restart latest");
   }
-  return exists;
+  return true;
 }
 
-void prepare(const std::string& path, bool force, bool restart) {
+std::unique_ptr<FolderLock> take(const std::string& path) {
+  try {
+    return std::make_unique<FolderLock>(path);
+  } catch (const SystemError& failure) {
+    throw InputError("output folder " + path + ": not writable: " + failure.what());
+  }
+}
+
+std::unique_ptr<FolderLock> prepare(const std::string& path, bool force, bool restart) {
   std::error_code error;
   if (!usable(path, force, restart)) {
     fs::create_directories(path, error);
     if (error) throw InputError("output folder " + path + ": cannot be made: " + error.message());
   }
-  check_writable(path);
+  std::unique_ptr<FolderLock> lock = take(path);
   for_each_own_file(path, ".part", remove_file);
-  if (!force || restart) return;
+  if (!force || restart) return lock;
   for_each_own_file(path, "", remove_file);
   fs::remove_all(path + "/pictures", error);
   if (error) throw SystemError("cannot remove " + path + "/pictures: " + error.message());
+  return lock;
 }
 
 template <class Visit>
@@ -94,9 +113,11 @@ void require_output_folder(const std::string& path, bool force, bool restart,
   on_rank_zero(communicator, [&] { usable(path, force, restart); });
 }
 
-void prepare_output_folder(const std::string& path, bool force, bool restart,
-                           MPI_Comm communicator) {
-  on_rank_zero(communicator, [&] { prepare(path, force, restart); });
+std::unique_ptr<FolderLock> prepare_output_folder(const std::string& path, bool force, bool restart,
+                                                  MPI_Comm communicator) {
+  std::unique_ptr<FolderLock> lock;
+  on_rank_zero(communicator, [&] { lock = prepare(path, force, restart); });
+  return lock;
 }
 
 void remove_records_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "poreshock/output/rank_zero.hpp"
@@ -33,16 +34,23 @@ std::optional<std::int64_t> row_step(const std::string& line) {
   return step;
 }
 
+/// Throws the InputError of a file with other columns than the header; says how to go on.
+void require_header(const std::string& path, const std::string& found, const std::string& header) {
+  if (found == header) return;
+  throw InputError(path +
+                   ":1: its columns are not those that this program writes for this scene; go on "
+                   "with the program that wrote it, or leave it as it is and go on in another "
+                   "folder with --output DIR --restart CHECKPOINT");
+}
+
 /// The rows to go on from: header and complete rows up to `last_step`.
 std::string kept_rows(const std::string& path, int dimension, bool grains, std::int64_t last_step) {
   const std::string text = read_text(path);
   std::istringstream in(text);
   std::string line;
   const std::string header = history_header(dimension, grains);
-  if (!std::getline(in, line) || line != header) {
-    throw InputError(path + ":1: cannot be continued, its columns are not those of a " +
-                     std::to_string(dimension) + "-D run of this program; move it away");
-  }
+  std::getline(in, line);
+  require_header(path, line, header);
   std::string kept = header + '\n';
   // A row without an end of line was cut off when the run was killed.
   while (std::getline(in, line) && !in.eof()) {
@@ -106,6 +114,15 @@ std::string history_line(const HistoryRow& row, int dimension) {
     }
   }
   return line;
+}
+
+void require_history(const std::string& path, int dimension, bool grains, MPI_Comm communicator) {
+  on_rank_zero(communicator, [&] {
+    if (!std::filesystem::exists(path)) return;
+    std::string line;
+    std::getline(std::ifstream(path), line);
+    require_header(path, line, history_header(dimension, grains));
+  });
 }
 
 HistoryWriter::HistoryWriter(const std::string& path, int dimension, bool grains,

@@ -52,6 +52,12 @@ void write_profile(const std::string& path, const RecordStamp& stamp, const Prof
   });
 }
 
+void require_same_profiles(const std::string& folder, const Profile& profile,
+                           MPI_Comm communicator) {
+  on_rank_zero(communicator,
+               [&] { require_same_tables(folder, format(), make_tables({}, profile)); });
+}
+
 void remove_profiles_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {
   on_rank_zero(communicator, [&] { remove_tables_from(folder, format(), first); });
 }

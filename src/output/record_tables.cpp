@@ -148,6 +148,11 @@ void append_rows(const Rows& from, const std::set<std::int64_t>& skip, Rows& to)
   }
 }
 
+bool same_columns(const RecordTable& a, const RecordTable& b) {
+  return a.axis == b.axis && a.axis_unit == b.axis_unit && same_datasets(a.curves, b.curves) &&
+         same_datasets(a.things, b.things);
+}
+
 /// Appends the rows of one file whose record is not in `skip`.
 void append_tables(const std::string& path, const TableFormat& format, const RecordTables& from,
                    const std::set<std::int64_t>& skip, RecordTables& to) {
@@ -156,9 +161,7 @@ void append_tables(const std::string& path, const TableFormat& format, const Rec
       to[group] = {source.axis_unit, source.axis, emptied(source.curves), emptied(source.things)};
     }
     RecordTable& table = to[group];
-    if (table.axis != source.axis || table.axis_unit != source.axis_unit ||
-        !same_datasets(table.curves, source.curves) ||
-        !same_datasets(table.things, source.things)) {
+    if (!same_columns(table, source)) {
       throw InputError(path + ": cannot be merged, the " + format.axis + "s or curves of " + group +
                        " differ from those of the earlier records; move it away");
     }
@@ -231,6 +234,26 @@ void remove_tables_from(const std::string& folder, const TableFormat& format, st
   stamp.step = table.series.at("step").integers.back();
   stamp.time = table.series.at("time").numbers.back();
   write_tables(path, format, stamp, kept, Durable::now);
+}
+
+void require_same_tables(const std::string& folder, const TableFormat& format,
+                         const RecordTables& now) {
+  std::vector<std::string> paths = {folder + "/" + format.whole};
+  for (const NumberedFile& file : record_files(folder, format)) paths.push_back(file.path);
+  for (const std::string& path : paths) {
+    if (!std::filesystem::exists(path)) continue;
+    RecordStamp stamp;
+    const RecordTables there = read_tables(path, format, stamp);
+    const bool same = std::equal(now.begin(), now.end(), there.begin(), there.end(),
+                                 [](const auto& a, const auto& b) {
+                                   return a.first == b.first && same_columns(a.second, b.second);
+                                 });
+    if (same) continue;
+    throw InputError(path + ": its " + format.axis +
+                     "s or curves are not those that this program writes for this scene; go on "
+                     "with the program that wrote it, or leave it as it is and go on in another "
+                     "folder with --output DIR --restart CHECKPOINT");
+  }
 }
 
 std::int64_t collect_tables(const std::string& folder, const TableFormat& format) {

@@ -67,6 +67,11 @@ void write_tables(const std::string& path, const TableFormat& format, const Reco
 /// has no others. InputError when the file is damaged.
 void remove_tables_from(const std::string& folder, const TableFormat& format, std::int64_t first);
 
+/// Throws InputError that says how to go on when a file of the folder has another axis or other
+/// series than a record of now, so that the two could not be merged. Changes nothing.
+void require_same_tables(const std::string& folder, const TableFormat& format,
+                         const RecordTables& now);
+
 /// Merges the small files, and what the file with all records holds of other records, in the order
 /// of the records, and removes the small files. Returns how many there were. InputError when a file
 /// is damaged or its axis or series differ from the others'.

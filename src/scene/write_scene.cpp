@@ -8,7 +8,7 @@ std::string write_scene(const Scene& scene) {
   scene_text::TomlWriter writer;
   Scene copy = scene;
   scene_text::visit_scene(writer, copy);
-  return "# A complete scene of poreshock: every key, SI units.\n" + writer.document();
+  return std::string(resolved_scene_mark) + ": every key, SI units.\n" + writer.document();
 }
 
 }  // namespace poreshock

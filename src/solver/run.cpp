@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/memory.hpp"
@@ -12,8 +13,10 @@
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/checksum.hpp"
 #include "poreshock/solver/ownership.hpp"
+#include "poreshock/solver/profiles.hpp"
 #include "poreshock/solver/progress.hpp"
 #include "poreshock/solver/records.hpp"
 #include "poreshock/solver/sleep.hpp"
@@ -30,6 +33,27 @@ EnergyStatus energy_status(const Simulation<Dim>& sim, const Recorder<Dim>& reco
   const HistoryRow& row = recorder.last_row;
   const double first = sim.ledger.first_total.value_or(row.total);
   return {row.kinetic, row.internal, first != 0.0 ? row.total / first - 1.0 : 0.0};
+}
+
+/// Refuses records that this run could not go on with, before any is cut.
+template <int Dim>
+void require_same_records(const std::string& folder, const Simulation<Dim>& sim) {
+  require_history(folder + "/history.csv", Dim, has_contact(sim), sim.communicator);
+  if (!(sim.scene.profile.every > 0.0)) return;
+  std::int64_t floored = 0;
+  require_same_profiles(folder, measure_profile(sim, floored), sim.communicator);
+}
+
+/// A file there that means the same scene stays, with the comments it may have got.
+template <int Dim>
+void write_scene_file(const std::string& folder, const Simulation<Dim>& sim) {
+  const std::string path = folder + "/scene.toml";
+  try {
+    if (std::filesystem::exists(path) && parse_scene(read_text(path), path) == sim.scene) return;
+  } catch (const InputError&) {
+    // Of another version, or damaged: replaced.
+  }
+  write_text(path, sim.scene_text);
 }
 
 /// True when nothing is left to compute. Not collective.
@@ -175,9 +199,11 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
                                   : start<Dim>(scene, communicator);
   // The map's rows may not suffice for the ranks, which is better said before anything is removed.
   std::unique_ptr<PixelGrid<Dim>> pixels = make_pixels(sim);
+  if (options.continues) require_same_records(options.folder, sim);
   // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
-  prepare_output_folder(options.folder, options.force, options.continues, communicator);
-  on_rank_zero(communicator, [&] { write_text(options.folder + "/scene.toml", sim.scene_text); });
+  const auto lock =
+      prepare_output_folder(options.folder, options.force, options.continues, communicator);
+  on_rank_zero(communicator, [&] { write_scene_file(options.folder, sim); });
   if (options.continues) {
     remove_checkpoints_after(options.folder, sim.clock.step, communicator);
   }

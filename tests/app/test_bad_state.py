@@ -30,6 +30,7 @@ class BadState(ProgramTest):
 
     def assert_kept(self, output, step, time):
         """failed.h5 opens and has all particles; the records before it are as they were written."""
+        self.assertFalse((self.folder / output / "poreshock.lock").exists())
         with h5py.File(self.folder / output / "failed.h5") as file:
             self.assertEqual(file.attrs["step"], step)
             self.assertLessEqual(abs(file.attrs["time"] - time), 1e-5 * time)

@@ -105,6 +105,24 @@ class RefusedRestart(ProgramTest):
         self.refuse_restart(f"time.end: found 1e-09 s, allowed at least the time of {self.checkpoint}, {time:.9g} s{advice}",
                             self.checkpoint, "--set", "time.end=1e-9", output="elsewhere")
 
+    def test_records_of_another_program(self):
+        """Told before anything is cut, with the way to go on, which works."""
+        advice = ("not those that this program writes for this scene; go on with the program that wrote it, or leave it as "
+                  "it is and go on in another folder with --output DIR --restart CHECKPOINT")
+        history = self.folder / "out/history.csv"
+        whole = history.read_bytes()
+        history.write_bytes(whole.replace(b",guards [-]", b"", 1))
+        self.refuse_restart(f"out/history.csv:1: its columns are {advice}", "latest", ranks=2)
+        self.run_scene("porous.toml", "beside", "--restart", self.checkpoint, "--set", "time.end=10e-9")
+        history.write_bytes(whole)
+        # Profiles of a grid of other rows stand for those of a program with other curves.
+        self.write("low.toml", POROUS.replace("0.48e-3", "0.5e-3"))
+        self.run_scene("low.toml", "low", "--set", "time.max_steps=2")
+        profiles = (self.folder / "out/profiles.h5").read_bytes()
+        shutil.copy(self.folder / "low/profiles.h5", self.folder / "out/profiles.h5")
+        self.refuse_restart(f"out/profiles.h5: its heights or curves are {advice}", "latest", ranks=2)
+        (self.folder / "out/profiles.h5").write_bytes(profiles)
+
     def test_existing_folder_of_another_run(self):
         self.write("other.toml", POROUS)
         self.run_scene("other.toml", "other", "--set", "time.max_steps=2")

@@ -5,11 +5,13 @@
 #include "poreshock/output/info.hpp"
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/timings.hpp"
+#include "poreshock/scene/read_scene.hpp"
 
 namespace poreshock {
 namespace {
 
 using test::contains;
+using test::file_bytes;
 using test::TemporaryFolder;
 using test::thrown;
 
@@ -21,24 +23,109 @@ void touch(const std::string& path) {
 
 TEST(OutputFolder, IsMadeWithItsParents) {
   const TemporaryFolder folder;
-  prepare_output_folder(folder / "a/b", false, false, world);
+  auto lock = prepare_output_folder(folder / "a/b", false, false, world);
+  EXPECT_EQ(lock != nullptr, rank(world) == 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "a/b/poreshock.lock"));
+  MPI_Barrier(world);
+  lock.reset();
+  MPI_Barrier(world);
   EXPECT_TRUE(std::filesystem::is_empty(folder / "a/b"));
+  // An empty one is as good as none.
+  lock = prepare_output_folder(folder / "a/b", false, false, world);
+}
+
+TEST(OutputFolder, OneThatIsInUseIsRefused) {
+  const TemporaryFolder folder;
+  const auto lock = prepare_output_folder(folder / "out", false, false, world);
+  for (const bool force : {false, true}) {
+    const std::string text =
+        thrown<InputError>([&] { require_output_folder(folder / "out", force, !force, world); });
+    for (const std::string part : {"in use by a run on host ", ", process ", ", started 2",
+                                   "poreshock.lock", "wait for its end"}) {
+      EXPECT_TRUE(contains(text, part)) << text;
+    }
+  }
+}
+
+/// Writes a lock as another process left it, with one line changed.
+void leave_lock(const std::string& folder, const std::string& key, const std::string& value) {
+  const std::string path = folder + "/poreshock.lock";
+  std::string text;
+  {
+    const FolderLock lock(folder);
+    text = read_text(path);
+  }
+  const std::size_t at = text.find(key + " ");
+  text.replace(at, text.find('\n', at) - at, key + " " + value);
+  std::ofstream(path) << text;
+}
+
+TEST(FolderLock, KnowsWhoIsNoMore) {
+  const TemporaryFolder folder;
+  test::rank_zero_alone([&] {
+    const std::string path = folder / "poreshock.lock";
+    // This very process, without flock(2): as over a file system that has none.
+    leave_lock(folder.path(), "started", "2026-01-01 00:00:00 UTC");
+    EXPECT_TRUE(contains(thrown<InputError>([&] { const FolderLock lock(folder.path()); }),
+                         "started 2026-01-01 00:00:00 UTC"));
+    std::filesystem::remove(path);
+    leave_lock(folder.path(), "host", "elsewhere");
+    const std::string text = thrown<InputError>([&] { const FolderLock lock(folder.path()); });
+    EXPECT_TRUE(contains(text, "host elsewhere, process ")) << text;
+    EXPECT_TRUE(contains(text, "remove its lock with: rm " + path)) << text;
+    std::filesystem::remove(path);
+    std::ofstream(path).close();  // of a process that was killed at once
+    EXPECT_TRUE(contains(thrown<InputError>([&] { const FolderLock lock(folder.path()); }),
+                         "host unknown"));
+    std::filesystem::remove(path);
+    for (const std::string key : {"process", "ticks", "boot"}) {
+      leave_lock(folder.path(), key, key == "process" ? "4194305" : "1");
+      { const FolderLock lock(folder.path()); }
+      EXPECT_FALSE(std::filesystem::exists(path)) << key;
+    }
+  });
+}
+
+TEST(FolderLock, LeavesThatOfAnotherRunAlone) {
+  const TemporaryFolder folder;
+  test::rank_zero_alone([&] {
+    const std::string path = folder / "poreshock.lock";
+    auto lock = std::make_unique<FolderLock>(folder.path());
+    std::filesystem::remove(path);
+    std::ofstream(path) << "host elsewhere\n";
+    lock.reset();
+    EXPECT_TRUE(std::filesystem::exists(path));
+  });
+}
+
+TEST(OutputFolder, SceneOfTheUserIsKept) {
+  const TemporaryFolder folder;
+  test::rank_zero_alone([&] { touch(folder / "scene.toml"); });
+  for (const bool force : {false, true}) {
+    EXPECT_TRUE(contains(thrown<InputError>([&] {
+                           (void)prepare_output_folder(folder.path(), force, !force, world);
+                         }),
+                         "its scene.toml was not written by a run"));
+    EXPECT_EQ(file_bytes(folder / "scene.toml"), "x");
+  }
 }
 
 TEST(OutputFolder, ExistingOneIsRefused) {
   const TemporaryFolder folder;
+  test::rank_zero_alone([&] { touch(folder / "notes.txt"); });
   const std::string text =
-      thrown<InputError>([&] { prepare_output_folder(folder.path(), false, false, world); });
+      thrown<InputError>([&] { (void)prepare_output_folder(folder.path(), false, false, world); });
   EXPECT_TRUE(contains(text, folder.path()) && contains(text, "--force") &&
               contains(text, "--restart"))
       << text;
   test::rank_zero_alone([&] { touch(folder / "file"); });
   for (const bool force : {false, true}) {
-    EXPECT_TRUE(contains(
-        thrown<InputError>([&] { prepare_output_folder(folder / "file", force, false, world); }),
-        "not a folder"));
     EXPECT_TRUE(contains(thrown<InputError>([&] {
-                           prepare_output_folder(folder / "file/below", force, false, world);
+                           (void)prepare_output_folder(folder / "file", force, false, world);
+                         }),
+                         "not a folder"));
+    EXPECT_TRUE(contains(thrown<InputError>([&] {
+                           (void)prepare_output_folder(folder / "file/below", force, false, world);
                          }),
                          "cannot be made"));
   }
@@ -46,7 +133,7 @@ TEST(OutputFolder, ExistingOneIsRefused) {
 
 TEST(OutputFolder, UnwritableOneIsRefused) {
   const std::string text =
-      thrown<InputError>([] { prepare_output_folder("/proc/self", true, false, world); });
+      thrown<InputError>([] { (void)prepare_output_folder("/proc/self", true, false, world); });
   EXPECT_TRUE(contains(text, "/proc/self") && contains(text, "not writable")) << text;
 }
 
@@ -66,14 +153,15 @@ TEST(OutputFolder, ForceRemovesOurFilesOnlyAndRestartNone) {
     for (const auto* list : {&ours, &foreign, &unfinished}) {
       for (const std::string& name : *list) touch(folder / name);
     }
+    std::ofstream(folder / "scene.toml") << resolved_scene_mark;
   });
-  prepare_output_folder(folder.path(), false, true, world);
+  (void)prepare_output_folder(folder.path(), false, true, world);
   for (const std::string& name : ours) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   for (const std::string& name : unfinished) {
     EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
   }
   MPI_Barrier(world);
-  prepare_output_folder(folder.path(), true, false, world);
+  (void)prepare_output_folder(folder.path(), true, false, world);
   for (const std::string& name : ours) EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
   for (const std::string& name : foreign) {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;

@@ -4,7 +4,10 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
+
+#include "poreshock/output/folder_lock.hpp"
 
 namespace poreshock {
 
@@ -13,11 +16,14 @@ namespace poreshock {
 void require_output_folder(const std::string& path, bool force, bool restart,
                            MPI_Comm communicator);
 
-/// Makes an output folder and proves that it can be written to. An existing one is refused with
+/// Makes an output folder and takes its lock, which proves that it can be written to; rank 0 holds
+/// the lock for as long as it writes. An existing folder that is not empty is refused with
 /// InputError, unless `force` (our own files in it are removed, others stay) or `restart` (nothing
-/// is removed but unfinished files of a killed run). Rank 0 works. Collective.
-void prepare_output_folder(const std::string& path, bool force, bool restart,
-                           MPI_Comm communicator);
+/// is removed but unfinished files of a killed run); so is always one that another run holds, and
+/// one with a scene.toml of the user's. Rank 0 works. Collective.
+[[nodiscard]] std::unique_ptr<FolderLock> prepare_output_folder(const std::string& path, bool force,
+                                                                bool restart,
+                                                                MPI_Comm communicator);
 
 /// Removes snapshots, morphology and profile files of record `first` and later, which a restarted
 /// run is about to write again. Rank 0 works. Collective.

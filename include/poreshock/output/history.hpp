@@ -59,6 +59,10 @@ std::string history_header(int dimension, bool grains);
 /// One line of the file, without its end of line; 17 significant digits.
 std::string history_line(const HistoryRow& row, int dimension);
 
+/// Throws the InputError with which a HistoryWriter would refuse to go on with a file, and changes
+/// nothing; a missing file is fine. Collective.
+void require_history(const std::string& path, int dimension, bool grains, MPI_Comm communicator);
+
 /// The open history of a run. Only rank 0 has the file; all members are collective, and a failing
 /// write throws SystemError on all ranks.
 class HistoryWriter {

@@ -48,6 +48,11 @@ std::string profile_name(std::int64_t record);
 void write_profile(const std::string& path, const RecordStamp& stamp, const Profile& profile,
                    MPI_Comm communicator);
 
+/// Throws InputError on all ranks, which says how to go on, when the profiles of a folder have
+/// other rows or curves than this one. Rank 0's arguments count, and rank 0 works. Collective.
+void require_same_profiles(const std::string& folder, const Profile& profile,
+                           MPI_Comm communicator);
+
 /// Takes the records from number `first` on out of profiles.h5, which a restarted run is about to
 /// measure again. Without such a file or such records nothing changes; InputError on all ranks when
 /// the file is damaged. Rank 0 works. Collective.

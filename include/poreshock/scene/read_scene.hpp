@@ -2,6 +2,7 @@
 // Reading, checking and writing of scenes.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "poreshock/scene/scene.hpp"
@@ -17,6 +18,9 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& overri
 /// The same from a text already in memory; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name,
                   const std::vector<std::string>& overrides = {});
+
+/// How the text of write_scene begins: a file that does not was written by somebody.
+inline constexpr std::string_view resolved_scene_mark = "# A complete scene of poreshock";
 
 /// The complete scene as TOML with every key written out; parse_scene(write_scene(s)) == s exactly
 /// (numbers in shortest round-trip form).
