@@ -9,6 +9,7 @@
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/simulation.hpp"
+#include "poreshock/solver/start_warnings.hpp"
 #include "run_estimate.hpp"
 
 namespace poreshock {
@@ -71,6 +72,7 @@ void check(const Scene& scene, MPI_Comm communicator) {
   require_memory(scene, resources);
   const Simulation<Dim> sim = start<Dim>(scene, communicator);
   const RunEstimate e = estimate_run(sim);
+  const std::vector<std::string> unmeant = start_warnings(sim);
   if (rank(communicator) != 0) return;
   std::printf("%s\n", sim.scene_text.c_str());
   print_sample(scene, sim.sample);
@@ -87,6 +89,7 @@ void check(const Scene& scene, MPI_Comm communicator) {
       "time to go              about %.0f s on %d ranks at %.1f million particle-steps per "
       "second per core\n",
       e.seconds, resources.ranks, assumed_rate(Dim) * 1e-6);
+  print_warnings(unmeant);
   print_warnings(sample_warnings(scene, sim.sample));
   print_warnings(run_warnings(scene, e, resources));
 }
@@ -101,6 +104,7 @@ void sample(const Scene& scene, const std::string& folder, bool force, MPI_Comm 
   write_xdmf(folder, communicator);
   if (rank(communicator) != 0) return;
   print_sample(scene, sim.sample);
+  print_warnings(body_warnings(scene, sim.sample));
   print_warnings(sample_warnings(scene, sim.sample));
   std::printf("sample in               %s/%s\n", folder.c_str(), snapshot_name(0).c_str());
 }

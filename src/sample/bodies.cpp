@@ -96,6 +96,27 @@ PolygonMoments polygon_moments(const std::vector<Triple>& points) {
 
 }  // namespace
 
+Box bounding_box(const Region& region) {
+  if (region.shape == BodyShape::box) return {region.low, region.high};
+  Box box;
+  if (region.shape == BodyShape::polygon) {
+    if (region.points.empty()) return {{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}};
+    box.low = box.high = region.points.front();
+    for (const Triple& p : region.points) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], p[axis]);
+        box.high[axis] = std::max(box.high[axis], p[axis]);
+      }
+    }
+    return box;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = region.center[axis] - region.radius;
+    box.high[axis] = region.center[axis] + region.radius;
+  }
+  return box;
+}
+
 bool contains(const Region& region, const Triple& point, int dimension) {
   switch (region.shape) {
     case BodyShape::disc:
@@ -157,6 +178,11 @@ Triple centroid(const Region& region, int dimension) {
       return polygon_moments(region.points).centroid;
   }
   return {};
+}
+
+bool move_alike(const Body& a, const Body& b, int dimension) {
+  if (a.velocity != b.velocity || a.spin != b.spin) return false;
+  return a.spin == Triple{} || centroid(a.region, dimension) == centroid(b.region, dimension);
 }
 
 double measure(const Region& region, int dimension) {

@@ -53,17 +53,38 @@ void settle_islands(const Scene& scene, const Lattice& lattice, LatticeRange ran
   }
 }
 
+/// By owner: the sample and the bodies before this one that are one piece with it where they meet,
+/// of the same material, grain and motion.
+std::vector<bool> one_piece_with(const Scene& scene, std::size_t body) {
+  const Body& own = scene.bodies[body];
+  Body sample;
+  sample.material = scene.sample.material;
+  const auto same = [&](const Body& other) {
+    return other.material == own.material && other.grain == own.grain &&
+           move_alike(other, own, scene.dimension);
+  };
+  std::vector<bool> result{same(sample)};
+  for (std::size_t b = 0; b < body; ++b) result.push_back(same(scene.bodies[b]));
+  return result;
+}
+
 std::vector<std::int32_t> find_owners(const Scene& scene, const GrainLayout& layout,
                                       const Lattice& lattice, LatticeRange range,
                                       MPI_Comm communicator, SampleReport& report) {
   std::vector<std::int32_t> owners = sample_owners(scene, report.voids, range);
   give_grains(scene, layout, range, first_grain_owner(scene), owners);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    give_region(lattice, range, scene.bodies[b].region,
-                owner_first_body + static_cast<std::int32_t>(b), owners);
+    report.bodies.push_back(give_region(lattice, range, scene.bodies[b].region,
+                                        owner_first_body + static_cast<std::int32_t>(b),
+                                        one_piece_with(scene, b), owners));
   }
   for (const Region& region : scene.voids) {
-    give_region(lattice, range, region, owner_none, owners);
+    report.hollows.push_back(give_region(lattice, range, region, owner_none, {}, owners));
+  }
+  const auto bodies = static_cast<std::int32_t>(scene.bodies.size());
+  for (const std::int32_t owner : owners) {
+    const std::int32_t body = owner - owner_first_body;
+    if (body >= 0 && body < bodies) ++report.bodies[static_cast<std::size_t>(body)].left;
   }
   const bool may_float = scene.sample.kind == SampleKind::random_voids && scene.sample.overlap;
   if (may_float) settle_islands(scene, lattice, range, communicator, owners, report);
@@ -223,12 +244,24 @@ SampleReport total(const SampleReport& report, MPI_Comm communicator) {
   std::vector<std::int64_t> counts = {report.lattice_sites, report.particles,
                                       report.block_particles, report.islands,
                                       report.island_particles};
+  for (const auto* regions : {&report.bodies, &report.hollows}) {
+    for (const RegionSites& r : *regions) {
+      counts.insert(counts.end(), {r.inside, r.taken, r.left});
+    }
+  }
   sum(counts, communicator);
   result.lattice_sites = counts[0];
   result.particles = counts[1];
   result.block_particles = counts[2];
   result.islands = counts[3];
   result.island_particles = counts[4];
+  std::size_t at = 5;
+  for (auto* regions : {&result.bodies, &result.hollows}) {
+    for (RegionSites& r : *regions) {
+      r = {counts[at], counts[at + 1], counts[at + 2]};
+      at += 3;
+    }
+  }
   set_particle_void_fraction(result);
   if (result.particles == 0) {
     throw InputError(

@@ -64,7 +64,7 @@ Runs runs_in(const Scene& scene, const std::vector<Void>& voids, const Lattice& 
     const LatticeRange some{first, std::min(first + slab, range.last)};
     std::vector<std::int32_t> owners = sample_owners(scene, voids, some);
     for (const Region& region : scene.voids) {
-      give_region(lattice, some, region, owner_none, owners);
+      give_region(lattice, some, region, owner_none, {}, owners);
     }
     append_runs(owners, lattice.sites[0], runs);
   }

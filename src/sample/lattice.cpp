@@ -58,31 +58,6 @@ void for_each_site(const Lattice& lattice, LatticeRange range, const Triple& low
   }
 }
 
-struct Box {
-  Triple low{}, high{};
-};
-
-Box bounding_box(const Region& region) {
-  if (region.shape == BodyShape::box) return {region.low, region.high};
-  Box box;
-  if (region.shape == BodyShape::polygon) {
-    if (region.points.empty()) return {{1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}};
-    box.low = box.high = region.points.front();
-    for (const Triple& p : region.points) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], p[axis]);
-        box.high[axis] = std::max(box.high[axis], p[axis]);
-      }
-    }
-    return box;
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = region.center[axis] - region.radius;
-    box.high[axis] = region.center[axis] + region.radius;
-  }
-  return box;
-}
-
 }  // namespace
 
 Lattice make_lattice(const Scene& scene) {
@@ -139,13 +114,25 @@ void give_ball(const Lattice& lattice, LatticeRange range, const std::array<bool
                 });
 }
 
-void give_region(const Lattice& lattice, LatticeRange range, const Region& region,
-                 std::int32_t owner, std::vector<std::int32_t>& owners) {
+RegionSites give_region(const Lattice& lattice, LatticeRange range, const Region& region,
+                        std::int32_t owner, const std::vector<bool>& one_piece,
+                        std::vector<std::int32_t>& owners) {
   const Box box = bounding_box(region);
+  const double depth = surface_depth(lattice);
+  RegionSites sites;
   for_each_site(lattice, range, box.low, box.high, {false, false},
                 [&](std::size_t site, const Triple& position) {
-                  if (contains(region, position, lattice.dimension)) owners[site] = owner;
+                  if (!contains(region, position, lattice.dimension)) return;
+                  ++sites.inside;
+                  const auto before = static_cast<std::size_t>(owners[site]);
+                  const bool other = owners[site] != owner_none &&
+                                     !(before < one_piece.size() && one_piece[before]);
+                  if (other && lies_within(region, position, depth, lattice.dimension)) {
+                    ++sites.taken;
+                  }
+                  owners[site] = owner;
                 });
+  return sites;
 }
 
 namespace {

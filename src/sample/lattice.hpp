@@ -76,8 +76,10 @@ inline double surface_depth(const Lattice& lattice) {
 /// lattice, the same on every rank.
 void require_apart(const Scene& scene, const Lattice& lattice);
 
-/// Gives the sites of the range that lie in the region to `owner`.
-void give_region(const Lattice& lattice, LatticeRange range, const Region& region,
-                 std::int32_t owner, std::vector<std::int32_t>& owners);
+/// Gives the sites of the range that lie in the region to `owner`, and counts them; none is `left`,
+/// and those of owners that are one piece with it are not `taken`.
+RegionSites give_region(const Lattice& lattice, LatticeRange range, const Region& region,
+                        std::int32_t owner, const std::vector<bool>& one_piece,
+                        std::vector<std::int32_t>& owners);
 
 }  // namespace poreshock

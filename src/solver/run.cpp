@@ -20,6 +20,7 @@
 #include "poreshock/solver/progress.hpp"
 #include "poreshock/solver/records.hpp"
 #include "poreshock/solver/sleep.hpp"
+#include "poreshock/solver/start_warnings.hpp"
 
 namespace poreshock {
 
@@ -197,6 +198,9 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);
+  if (!restarted) {
+    for (const std::string& warning : start_warnings(sim)) warn(warning, communicator);
+  }
   // The map's rows may not suffice for the ranks, which is better said before anything is removed.
   std::unique_ptr<PixelGrid<Dim>> pixels = make_pixels(sim);
   if (options.continues) require_same_records(options.folder, sim);

@@ -206,6 +206,9 @@ TEST(Fill, TheLastBodyOwnsASiteAndVoidsTakeAll) {
   EXPECT_EQ(report.lattice_sites, 4 * 40);
   EXPECT_EQ(report.block_particles, 4 * (31 + 8 - 1));
   EXPECT_EQ(report.particles, 4 * 58);
+  const std::vector<RegionSites> bodies = {{4 * 24, 4 * 8, 4 * 17}, {4 * 12, 4 * 4, 4 * 10}};
+  EXPECT_EQ(report.bodies, bodies);
+  EXPECT_EQ(report.hollows, (std::vector<RegionSites>{{4 * 8, 4 * 6, 0}}));
   const std::set<std::int64_t> ids(particles.id.begin(), particles.id.end());
   EXPECT_EQ(ids.size(), particles.size());
 }

@@ -27,6 +27,14 @@ struct Grain {
   int material = 0;      ///< index into Scene::materials
 };
 
+/// Lattice sites of an explicit body or void.
+struct RegionSites {
+  std::int64_t inside = 0;  ///< in the domain
+  std::int64_t taken = 0;   ///< of these, off its surface, that something filled before
+  std::int64_t left = 0;    ///< that are its own when all bodies and voids have been placed
+  bool operator==(const RegionSites&) const = default;
+};
+
 /// What a generated sample achieved. The voids and grains and what follows from them alone are the
 /// same on every rank; counts are those of the lattice range that was filled, until total() has
 /// summed them.
@@ -43,6 +51,8 @@ struct SampleReport {
   std::int64_t particles = 0;            ///< in all, bodies included
   std::int64_t islands = 0;              ///< floating pieces (overlapping voids)
   std::int64_t island_particles = 0;     ///< particles removed with them
+  std::vector<RegionSites> bodies;       ///< of Scene::bodies, in their order
+  std::vector<RegionSites> hollows;      ///< of Scene::voids
 };
 
 /// Places the voids of a random_voids sample (no voids for other kinds). Without overlap the void
@@ -94,6 +104,11 @@ void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particl
 /// The report of the whole sample from the reports of all ranks' ranges. Throws InputError on every
 /// rank when the scene makes no particle at all. Collective.
 SampleReport total(const SampleReport& report, MPI_Comm communicator);
+
+/// Plain sentences about bodies and voids that can hardly be meant: outside of the domain, cut by
+/// it, without a particle, in the place of others, self-crossing, or of one grain and different
+/// velocities. `report` is that of the whole sample. Not collective.
+std::vector<std::string> body_warnings(const Scene& scene, const SampleReport& report);
 
 /// Plain sentences about what a sample leaves unresolved: voids of few cells, thin ligaments, radii
 /// that differ from those asked for, removed islands. `report` is that of the whole sample. Not
