@@ -102,10 +102,10 @@ double steps_on_beats(const Scene& scene, double step) {
 
 void warn_beat(const Scene& scene, const RunEstimate& estimate,
                std::vector<std::string>& warnings) {
-  constexpr double noticed = 1.25;
+  constexpr double noticed = 1.25, few = 50.0;
   const double step = std::min(estimate.mechanical_step, estimate.conduction_step);
   const double steps = steps_on_beats(scene, step);
-  if (steps < noticed * estimate.free_steps) return;
+  if (steps < noticed * estimate.free_steps || steps < estimate.free_steps + few) return;
   warnings.push_back("output.beat = " + short_number(scene.output.beat) +
                      " s sets the time step, which else were about " + short_number(step) +
                      " s: steps land on its multiples, and " + whole_number(steps) +

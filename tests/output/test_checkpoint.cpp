@@ -18,8 +18,8 @@ using test::thrown;
 
 const MPI_Comm world = MPI_COMM_WORLD;
 
-const RunState sample_state = {123456789, 1.0 / 3.0, 1e-11 / 7.0,
-                               41,        12,        {std::int64_t{1} << 62, -5, 0}, 0.1};
+const RunState sample_state = {
+    123456789, 1.0 / 3.0, 1e-11 / 7.0, 41, 12, {std::int64_t{1} << 62, -5, 0}, 0.1};
 const std::string sample_scene = "title = \"checkpoint\"\n[domain]\ncell = 1e-6\n";
 
 /// The first `ranks` ranks of the world; null on the others. Collective.

@@ -120,6 +120,15 @@ class Commands(unittest.TestCase):
         self.script(self.root / "tools/mpirun",
                     'echo "$*"\nwhile [[ $1 != --output ]]; do shift; done\nmkdir -p "$2"\nexit "${CODE:-0}"\n')
 
+    def test_run_refuses_options_without_a_value(self):
+        self.prepare_run()
+        for arguments in (["--output", ""], ["--output="], ["--restart", ""], ["-n", ""]):
+            done = self.call("tools/run", "input/plate.toml", *arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr, f"tools/run: {arguments[0].rstrip('=')}: found an empty text; give a value, or leave the "
+                             "option out\n")
+        self.assertFalse((self.root / "output").exists())
+
     def test_run_never_overwrites_and_draws_the_report(self):
         self.prepare_run()
         program = self.root / "build/release/poreshock"
