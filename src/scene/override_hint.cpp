@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cctype>
 #include <regex>
 
@@ -22,43 +23,56 @@ bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-bool ends_word(char c) {
-  return std::string("=,[]{}\"'").find(c) != std::string::npos;
-}
+/// Takes a value apart and puts quotes around its words.
+class Quoter {
+ public:
+  explicit Quoter(const std::string& value) : value_(value) {}
 
-/// Quotes around every word that is neither quoted, nor a key of a table, nor a name of TOML.
-std::string with_quotes(const std::string& value) {
-  std::string result;
-  char quote = 0;
-  for (std::size_t i = 0; i < value.size();) {
-    const char c = value[i];
-    const bool within = quote != 0;
-    if (within || !(is_letter(c) || c == '/' || c == '.')) {
-      if (c == quote) {
-        quote = 0;
-      } else if (!within && (c == '"' || c == '\'')) {
-        quote = c;
+  std::string quoted() {
+    while (at_ < value_.size()) {
+      const char c = value_[at_];
+      if (c == '"' || c == '\'') {
+        take(std::min(value_.size(), value_.find(c, at_ + 1)) + 1 - at_);
+      } else if (is_letter(c) || c == '/' || c == '.') {
+        word();
+      } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+        take(std::max<std::size_t>(1, length()));  // with its exponent
+      } else {
+        if (c == '{') ++tables_;
+        if (c == '}') --tables_;
+        take(1);
       }
-      // A number takes its exponent along.
-      const std::size_t first = i++;
-      if (!within && std::isdigit(static_cast<unsigned char>(c)) != 0) {
-        while (i < value.size() && !ends_word(value[i]) && value[i] != ' ') ++i;
-      }
-      result.append(value, first, i - first);
-      continue;
     }
-    std::size_t end = i;
-    while (end < value.size() && !ends_word(value[end])) ++end;
-    std::string word = value.substr(i, end - i);
-    const std::size_t blanks = word.size() - (word.find_last_not_of(' ') + 1);
-    word.resize(word.size() - blanks);
-    const bool key = end < value.size() && value[end] == '=';
-    const bool name = word == "true" || word == "false" || word == "inf" || word == "nan";
-    result.append(key || name ? word : '"' + word + '"').append(blanks, ' ');
-    i = end;
+    return result_;
   }
-  return result;
-}
+
+ private:
+  /// Letters until something of TOML; an equals sign is that in a table only.
+  std::size_t length() const {
+    const std::size_t end = value_.find_first_of(tables_ > 0 ? "=,[]{}\"'" : ",[]{}\"'", at_);
+    const std::string word = value_.substr(at_, std::min(end, value_.size()) - at_);
+    return word.find_last_not_of(' ') + 1;
+  }
+
+  void take(std::size_t count) {
+    result_.append(value_, at_, count);
+    at_ += count;
+  }
+
+  void word() {
+    const std::string text = value_.substr(at_, length());
+    const std::size_t next = value_.find_first_not_of(' ', at_ + text.size());
+    const bool key = tables_ > 0 && next != std::string::npos && value_[next] == '=';
+    const bool name = text == "true" || text == "false" || text == "inf" || text == "nan";
+    result_ += key || name ? text : '"' + text + '"';
+    at_ += text.size();
+  }
+
+  const std::string& value_;
+  std::size_t at_ = 0;
+  int tables_ = 0;
+  std::string result_;
+};
 
 bool is_toml(const std::string& text) {
   try {
@@ -74,22 +88,29 @@ std::string override_hint(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals + 1);
   const std::string value = text.substr(equals + 1);
-  const std::string tables = with_ranges(value);
-  // A range of small numbers reads as a time of the day.
-  if (tables == value && is_toml(text)) return "";
-  const std::string quoted = with_quotes(tables);
-  std::string written = key + quoted;
-  std::string what;
-  if (tables != value) what = "found a range, allowed {from, to, step}";
-  if (quoted != tables) {
-    what.append(what.empty() ? "" : "; ").append("found a text without quotes");
+  // A range of small numbers is a time of the day to TOML.
+  const bool quotes = value.find_first_of("\"'") != std::string::npos;
+  if (is_toml(text) && (quotes || with_ranges(value) == value)) return "";
+  // Prose may hold anything.
+  if (key.ends_with("title=") || key.ends_with("image=")) {
+    return "found a text without quotes; write --set '" + key + '"' + value + "\"'";
   }
+  const std::string tables = with_ranges(value);
+  const bool range = tables != value;
+  if (range && key.find("thresholds") == std::string::npos &&
+      key.find("hot_spots") == std::string::npos) {
+    return "found a range, allowed one value; tools/sweep runs a scene with several";
+  }
+  const std::string quoted = Quoter(tables).quoted();
+  std::string written = key + quoted;
+  std::string what = range ? "found a range, allowed {from, to, step}" : "";
+  const auto add = [&](const char* found) { what.append(what.empty() ? "" : "; ").append(found); };
+  if (quoted != tables) add("found a text without quotes");
   if (!is_toml(written)) {
     written = key + '[' + quoted + ']';
-    what.append(what.empty() ? "" : "; ").append("found a list without brackets");
+    add("found a list without brackets");
   }
-  if (!is_toml(written)) return "";
-  return what + "; write --set '" + written + "'";
+  return is_toml(written) ? what + "; write --set '" + written + "'" : "";
 }
 
 }  // namespace poreshock::scene_text

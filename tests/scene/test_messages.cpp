@@ -184,6 +184,10 @@ TEST(Messages, OverridesSayHowToWriteThem) {
       {"morphology.thresholds={temperature=310:900:10, pressure=[1e9]}",
        "found a range, allowed {from, to, step}; write --set 'morphology.thresholds={temperature="
        "{from = 310, to = 900, step = 10}, pressure=[1e9]}'"},
+      {"loading.velocity=900:1100:100",
+       "found a range, allowed one value; tools/sweep runs a scene with several"},
+      {"title=v = 3, or so", "found a text without quotes; write --set 'title=\"v = 3, or so\"'"},
+      {"title=v = 3", "found a text without quotes; write --set 'title=\"v = 3\"'"},
       {"title=a first run", "found a text without quotes; write --set 'title=\"a first run\"'"},
       {"sample.image=../bed 2/label.png",
        "found a text without quotes; write --set 'sample.image=\"../bed 2/label.png\"'"},
@@ -197,6 +201,7 @@ TEST(Messages, OverridesSayHowToWriteThem) {
        "'output.fields=[\"temperature\",\"pressure\"]'"},
       {"domain.size=1e-4,2e-4",
        "found a list without brackets; write --set 'domain.size=[1e-4,2e-4]'"}};
+  EXPECT_EQ(problems(small_scene(""), {"title=\"310:900:10\"", "title='10:50:10'"}), "");
   for (const auto& [change, message] : cases) {
     EXPECT_EQ(problems(small_scene(""), {change}), "--set " + change + ": " + message);
   }
