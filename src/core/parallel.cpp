@@ -1,9 +1,9 @@
 #include "poreshock/core/parallel.hpp"
 
 #include <petscsys.h>
-#include <signal.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "poreshock/core/error.hpp"

@@ -1,7 +1,5 @@
 #include "poreshock/core/stop_signal.hpp"
 
-#include <signal.h>
-
 #include <csignal>
 #include <initializer_list>
 
