@@ -52,13 +52,11 @@ double mechanical_step(const Simulation<Dim>& sim) {
   return scene.domain.cell / (rate * (plane ? 1.0 : rough));
 }
 
-/// State, averaged pressure, sort order, cell number and one column in flight while particles are
+/// State, sort order, cell number and one column in flight while particles are
 /// reordered, bytes per particle; what is kept for chunks of rows alone does not grow with them.
 template <int Dim>
 double bytes_of_a_particle(const Simulation<Dim>& sim) {
-  const Transfer& transfer = sim.scene.transfer;
   double columns = 1.0;
-  if (transfer.averaging > 0.0) columns += 1.0;
   if (sim.heat) columns += Dim + 1.0;
   return static_cast<double>(bytes_per_particle(sim.particles)) + 8.0 * columns + 8.0;
 }
@@ -77,7 +75,7 @@ double bytes_of_maps(const Scene& scene) {
 template <int Dim>
 double bytes_of_nodes(const Simulation<Dim>& sim) {
   std::int64_t bytes = 0;
-  for (const SlabGrid* grid : {sim.grid.get(), sim.averages.get(), sim.heat.get()}) {
+  for (const SlabGrid* grid : {sim.grid.get(), sim.heat.get()}) {
     if (grid != nullptr) bytes += static_cast<std::int64_t>(grid->bytes());
   }
   return static_cast<double>(sum(bytes, sim.communicator));
@@ -225,6 +223,11 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
   constexpr double day = 86400.0;
   std::vector<std::string> warnings;
   warn_beat(scene, estimate, warnings);
+  if (scene.transfer.shape == ShapeFunction::linear) {
+    warnings.push_back(
+        "With transfer.shape = \"linear\" runs stop where voids collapse: hats let forces jump "
+        "where particles cross cells. Set transfer.shape to \"gimp\" or \"cubic\".");
+  }
   warn_conduction(scene, estimate, warnings);
   if (estimate.memory > resources.memory) {
     warnings.push_back(memory_sentence(scene, estimate.memory, resources));

@@ -8,10 +8,10 @@ namespace poreshock {
 
 std::string_view phase_name(PhaseName phase) {
   static constexpr std::array<std::string_view, static_cast<int>(PhaseName::count)> names = {
-      "sort",     "particles to grid", "exchange",        "average", "grid update",
-      "contact",  "grid to particles", "heat conduction", "stress",  "time step",
-      "migrate",  "rebalance",         "morphology",      "profile", "history",
-      "snapshot", "checkpoint"};
+      "sort",      "particles to grid", "exchange",        "grid update",
+      "contact",   "grid to particles", "heat conduction", "stress",
+      "time step", "migrate",           "rebalance",       "morphology",
+      "profile",   "history",           "snapshot",        "checkpoint"};
   return names[static_cast<std::size_t>(phase)];
 }
 

@@ -24,7 +24,7 @@ std::string column_path(std::string_view name, int component) {
 
 std::string_view column_unit(std::string_view name, int dimension) {
   if (name == "position") return "m";
-  if (name == "velocity") return "m/s";
+  if (name == "velocity" || name == "quadratic") return "m/s";
   if (name == "affine") return "1/s";
   if (name == "mass") return dimension == 2 ? "kg/m" : "kg";
   if (name == "density") return "kg/m^3";
@@ -49,6 +49,7 @@ FileSpec file_spec(const std::string& scene_text, const RunState& state,
   spec.attributes.push_back({"beat", state.beat});
   spec.attributes.push_back({"record", state.record});
   spec.attributes.push_back({"affine", std::int64_t{particles.options.affine}});
+  spec.attributes.push_back({"quadratic", std::int64_t{particles.options.quadratic}});
   spec.attributes.push_back({"back_stress", std::int64_t{particles.options.back_stress}});
   spec.attributes.push_back({"conducted_heat", std::int64_t{particles.options.conducted_heat}});
   spec.attributes.push_back({"failed", std::int64_t{particles.options.failed}});
@@ -131,6 +132,7 @@ void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string
   state = read_state(file);
   particles = Particles<Dim>{};
   particles.options.affine = file.integer("affine") != 0;
+  particles.options.quadratic = optional_column(file, "quadratic");
   particles.options.back_stress = file.integer("back_stress") != 0;
   particles.options.conducted_heat = optional_column(file, "conducted_heat");
   particles.options.failed = optional_column(file, "failed");

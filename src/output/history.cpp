@@ -62,6 +62,16 @@ std::string kept_rows(const std::string& path, int dimension, bool grains, std::
 
 }  // namespace
 
+double all_heat(const HistoryRow& row) {
+  return row.plastic_work + row.viscous_heat + row.filter_heat + row.wall_heat + row.contact_heat +
+         row.friction_heat;
+}
+
+double numerical_share(const HistoryRow& row) {
+  const double heat = all_heat(row);
+  return heat > 0.0 ? (row.filter_heat + row.contact_heat) / heat : 0.0;
+}
+
 std::string history_header(int dimension, bool grains) {
   const bool plane = dimension == 2;
   const std::string energy = plane ? " [J/m]" : " [J]";
@@ -79,7 +89,8 @@ std::string history_header(int dimension, bool grains) {
       header.append(",").append(name).append(axis).append(momentum);
     }
   }
-  header.append(",wall_force").append(plane ? " [N/m]" : " [N]").append(",guards [-]");
+  header.append(",wall_force").append(plane ? " [N/m]" : " [N]").append(",numerical_share [-]");
+  header.append(",guards [-]");
   if (grains) {
     header.append(
         ",contact_nodes [-],crowded_nodes [-],least_gap [m],penetration [m],momentum_residual [-]");
@@ -104,6 +115,7 @@ std::string history_line(const HistoryRow& row, int dimension) {
     for (int a = 0; a < dimension; ++a) add((*values)[static_cast<std::size_t>(a)], line);
   }
   add(row.wall_force, line);
+  add(numerical_share(row), line);
   add(row.guards, line);
   if (row.contact) {
     add(row.contact->nodes, line);

@@ -18,7 +18,7 @@ template <int Dim>
 struct Source {
   const SnapshotInput<Dim>& input;
   std::vector<double> temperature;
-  double affine_inertia;  ///< m^2, D of APIC
+  double affine_inertia;  ///< m^2
 };
 
 /// One dataset of floating-point numbers: component c of particle i.
@@ -29,18 +29,6 @@ struct Field {
   std::string_view unit;
   double (*value)(const Source<Dim>& source, std::size_t i, std::size_t c);
 };
-
-template <int Dim>
-double kinetic_energy(const Source<Dim>& source, std::size_t i) {
-  const Particles<Dim>& p = source.input.particles;
-  double velocity = 0.0;
-  for (const auto& component : p.velocity) velocity += component[i] * component[i];
-  double gradient = 0.0;
-  if (p.options.affine) {
-    for (const auto& component : p.affine) gradient += component[i] * component[i];
-  }
-  return 0.5 * velocity + 0.5 * source.affine_inertia * gradient;
-}
 
 template <int Dim>
 auto fields() {
@@ -65,7 +53,8 @@ auto fields() {
       {"plastic_work", 1, "J/kg", [](S s, N i, N) { return s.input.particles.plastic_work[i]; }},
       {"internal_energy", 1, "J/kg",
        [](S s, N i, N) { return s.input.particles.internal_energy[i]; }},
-      {"kinetic_energy", 1, "J/kg", [](S s, N i, N) { return kinetic_energy(s, i); }},
+      {"kinetic_energy", 1, "J/kg",
+       [](S s, N i, N) { return kinetic_energy(s.input.particles, s.affine_inertia, i); }},
   }};
 }
 

@@ -29,7 +29,7 @@ void remove(std::vector<std::uint32_t> holes, Particles<Dim>& particles) {
 }
 
 /// Which particles of this rank stay or go to each rank, and how many come from each.
-struct Transfer {
+struct Departure {
   std::vector<std::uint32_t> staying;
   std::vector<std::vector<std::uint32_t>> leaving;
   std::vector<std::int64_t> arriving;
@@ -37,25 +37,26 @@ struct Transfer {
 
 /// Moves one column: first those that stay, then those of rank 0, 1, ... Collective.
 template <class Value>
-void move_column(const Transfer& transfer, std::vector<Value>& column, MPI_Comm communicator) {
+void move_column(const Departure& departure, std::vector<Value>& column, MPI_Comm communicator) {
   MPI_Datatype unit = make_unit(sizeof(Value));
-  std::vector<Value> moved(
-      std::accumulate(transfer.arriving.begin(), transfer.arriving.end(), transfer.staying.size()));
-  for (std::size_t k = 0; k < transfer.staying.size(); ++k) moved[k] = column[transfer.staying[k]];
+  std::vector<Value> moved(std::accumulate(departure.arriving.begin(), departure.arriving.end(),
+                                           departure.staying.size()));
+  for (std::size_t k = 0; k < departure.staying.size(); ++k)
+    moved[k] = column[departure.staying[k]];
   std::vector<MPI_Request> requests;
-  std::size_t at = transfer.staying.size();
-  for (std::size_t r = 0; r < transfer.arriving.size(); ++r) {
-    if (transfer.arriving[r] == 0) continue;
-    MPI_Irecv(moved.data() + at, static_cast<int>(transfer.arriving[r]), unit, static_cast<int>(r),
+  std::size_t at = departure.staying.size();
+  for (std::size_t r = 0; r < departure.arriving.size(); ++r) {
+    if (departure.arriving[r] == 0) continue;
+    MPI_Irecv(moved.data() + at, static_cast<int>(departure.arriving[r]), unit, static_cast<int>(r),
               30, communicator, &requests.emplace_back());
-    at += static_cast<std::size_t>(transfer.arriving[r]);
+    at += static_cast<std::size_t>(departure.arriving[r]);
   }
   std::vector<std::vector<Value>> buffers;
-  for (std::size_t r = 0; r < transfer.leaving.size(); ++r) {
-    if (transfer.leaving[r].empty()) continue;
+  for (std::size_t r = 0; r < departure.leaving.size(); ++r) {
+    if (departure.leaving[r].empty()) continue;
     std::vector<Value>& buffer = buffers.emplace_back();
-    buffer.reserve(transfer.leaving[r].size());
-    for (const std::uint32_t p : transfer.leaving[r]) buffer.push_back(column[p]);
+    buffer.reserve(departure.leaving[r].size());
+    for (const std::uint32_t p : departure.leaving[r]) buffer.push_back(column[p]);
     MPI_Isend(buffer.data(), static_cast<int>(buffer.size()), unit, static_cast<int>(r), 30,
               communicator, &requests.emplace_back());
   }
@@ -89,25 +90,25 @@ void exchange_with_neighbours(const std::vector<std::uint32_t>& down,
 template <int Dim>
 void redistribute(const std::vector<int>& destination, Particles<Dim>& particles,
                   MPI_Comm communicator) {
-  Transfer transfer;
-  transfer.leaving.resize(static_cast<std::size_t>(size(communicator)));
+  Departure departure;
+  departure.leaving.resize(static_cast<std::size_t>(size(communicator)));
   const int me = rank(communicator);
   for (std::size_t p = 0; p < destination.size(); ++p) {
     const int to = destination[p];
     if (to < 0) continue;
-    (to == me ? transfer.staying : transfer.leaving[to]).push_back(static_cast<std::uint32_t>(p));
+    (to == me ? departure.staying : departure.leaving[to]).push_back(static_cast<std::uint32_t>(p));
   }
   std::vector<std::int64_t> sent;
-  for (const auto& indices : transfer.leaving) {
+  for (const auto& indices : departure.leaving) {
     sent.push_back(static_cast<std::int64_t>(indices.size()));
   }
-  transfer.arriving.resize(sent.size());
-  check_mpi(MPI_Alltoall(sent.data(), 1, MPI_INT64_T, transfer.arriving.data(), 1, MPI_INT64_T,
+  departure.arriving.resize(sent.size());
+  check_mpi(MPI_Alltoall(sent.data(), 1, MPI_INT64_T, departure.arriving.data(), 1, MPI_INT64_T,
                          communicator),
             "MPI_Alltoall of particle counts");
   // One column after the other: whole, the particles of a slab that wakes up would be held thrice.
   for_each_column(particles, [&](std::string_view, int, auto& column) {
-    move_column(transfer, column, communicator);
+    move_column(departure, column, communicator);
   });
 }
 

@@ -5,12 +5,10 @@
 namespace poreshock {
 
 template <int Dim>
-void integrate_momentum(const Vector<Dim>& body_force, bool projected, double dt, SlabGrid& grid,
-                        NodeLedger& ledger) {
+void integrate_momentum(const Vector<Dim>& body_force, double dt, SlabGrid& grid) {
   using Sum = SumLane<Dim>;
   using Motion = MotionLane<Dim>;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    const bool owned = row < grid.last_row();
     Lanes* nodes = grid.row(row);
     for (int i = 0; i < grid.shape().row_size; ++i) {
       const Lanes sum = nodes[i];
@@ -21,21 +19,14 @@ void integrate_momentum(const Vector<Dim>& body_force, bool projected, double dt
       }
       Lanes motion{};
       const double inverse_mass = 1.0 / mass;
-      double start2 = 0.0;
       for (int a = 0; a < Dim; ++a) {
         const double start = sum[Sum::momentum + a] * inverse_mass;
         const double end = start + dt * (sum[Sum::force + a] * inverse_mass + body_force[a]);
         motion[Motion::start_velocity + a] = start;
         motion[Motion::end_velocity + a] = end;
-        start2 += start * start;
       }
-      const double lost = projected ? sum[Sum::kinetic] * inverse_mass - 0.5 * start2 : 0.0;
-      motion[Motion::heat] = lost;
       motion[Motion::mass] = mass;
       nodes[i] = motion;
-      if (owned && projected) {
-        ledger.filter_heat += quantise(mass * lost, ledger.inverse_energy_quantum);
-      }
     }
   }
 }
@@ -60,9 +51,9 @@ void add_body_work(const Vector<Dim>& body_force, double dt, const SlabGrid& gri
   }
 }
 
-template void integrate_momentum<2>(const Vector<2>&, bool, double, SlabGrid&, NodeLedger&);
+template void integrate_momentum<2>(const Vector<2>&, double, SlabGrid&);
 template void add_body_work<2>(const Vector<2>&, double, const SlabGrid&, NodeLedger&);
 template void add_body_work<3>(const Vector<3>&, double, const SlabGrid&, NodeLedger&);
-template void integrate_momentum<3>(const Vector<3>&, bool, double, SlabGrid&, NodeLedger&);
+template void integrate_momentum<3>(const Vector<3>&, double, SlabGrid&);
 
 }  // namespace poreshock

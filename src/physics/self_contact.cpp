@@ -128,18 +128,6 @@ std::vector<NodeSides> find_sides(const std::vector<SlabGrid*>& surfaces) {
   return sides;
 }
 
-void share_sums(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
-  for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
-    for (const std::uint8_t side : {node.first, node.second}) {
-      if ((side & (side - 1)) == 0) continue;  // a single quarter keeps its own
-      const Lanes sum = sum_at(rows, i, side);
-      for (int f = 0; f < facing_quarters; ++f) {
-        if (belongs(f, side)) rows.of[f][i] = sum;
-      }
-    }
-  });
-}
-
 void join_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
   for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
     const Lanes first = sum_at(rows, i, node.first), second = sum_at(rows, i, node.second);

@@ -67,7 +67,7 @@ void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, d
 
 // Flattened: the loop vectorises only when all it calls is inlined, and with so many variants the
 // compiler would stop.
-template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
+template <int Dim, Yielding How, bool Spall, bool Conserving>
 [[gnu::flatten]] void update_block(const J2MieGruneisen& material,
                                    const StressSettings<Dim>& all_settings, double dt,
                                    const Columns<Dim>& all_columns, std::size_t count,
@@ -84,8 +84,7 @@ template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
   const double lone = lone_rate<Dim>(settings, m);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    update_particle<Dim, How, Spall, Conserving, Averaging>(m, settings, dt, lone, c, k, k,
-                                                            results);
+    update_particle<Dim, How, Spall, Conserving>(m, settings, dt, lone, c, k, k, results);
   }
   reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }
@@ -155,14 +154,9 @@ void for_each_block(const Particles<Dim>& particles, std::span<const std::uint32
 template <int Dim, Yielding How, bool Spall>
 void update_in_mode(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
                     const Columns<Dim>& c, std::size_t count, StressReport& report) {
-  const bool conserving = settings.thermal == Thermal::conserving;
-  if (settings.averaging) {
-    conserving ? update_block<Dim, How, Spall, true, true>(m, settings, dt, c, count, report)
-               : update_block<Dim, How, Spall, false, true>(m, settings, dt, c, count, report);
-  } else {
-    conserving ? update_block<Dim, How, Spall, true, false>(m, settings, dt, c, count, report)
-               : update_block<Dim, How, Spall, false, false>(m, settings, dt, c, count, report);
-  }
+  settings.thermal == Thermal::conserving
+      ? update_block<Dim, How, Spall, true>(m, settings, dt, c, count, report)
+      : update_block<Dim, How, Spall, false>(m, settings, dt, c, count, report);
 }
 
 template <int Dim, Yielding How, bool Spall>
@@ -195,9 +189,10 @@ template <int Dim>
 double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& material) {
   const double bulk = material.eos.bulk, shear = material.strength.shear;
   const double swinging = bulk + (Dim == 2 ? shear / 3.0 : 0.0);
-  const double omega = std::sqrt(Dim * settings.stiffness * swinging / (bulk + 4.0 / 3.0 * shear));
-  const double damping = 0.5 * omega * settings.viscosity.linear;
-  return 0.5 * omega * (std::sqrt(1.0 + damping * damping) + damping);
+  const double stiffness = Dim * settings.stiffness;
+  const double elastic = stiffness * swinging / (bulk + 4.0 / 3.0 * shear);
+  const double viscous = stiffness * settings.viscosity.linear;
+  return 0.25 * (viscous + std::sqrt(viscous * viscous + 4.0 * elastic));
 }
 
 template <int Dim>
@@ -225,7 +220,7 @@ void initialise_stress(const std::vector<Material>& materials, const StressSetti
   report = {};
   constexpr std::size_t chunk = 4096;
   StepData<Dim> still;
-  resize_ordered(chunk, settings.averaging, still);
+  resize_ordered(chunk, still);
   std::vector<std::uint32_t> places;
   for (std::size_t first = 0; first < particles.size(); first += chunk) {
     places.resize(std::min(chunk, particles.size() - first));

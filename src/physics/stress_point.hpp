@@ -19,6 +19,10 @@ constexpr double largest_strain_increment = 0.2;
 /// Squared sound speeds below this share of c0^2 are floored (and counted).
 constexpr double sound_speed_floor = 1.0e-4;
 
+/// Below this share of the sound speed a closing cell meets less and less linear viscosity: else
+/// rounding would decide about the step.
+constexpr double least_closing = 1.0e-6;
+
 /// Per-particle results of one block that are reduced afterwards, in plain loops.
 struct BlockResults {
   double limit[block_size];
@@ -35,17 +39,20 @@ struct ViscousStep {
   double pressure, limit;
 };
 
+/// `linear` and `quadratic` are the shares of the two viscosities that act, `lone` is what a
+/// particle alone bounds the step to, in sound speeds per cell.
 inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double cfl, double lone,
                                 double density, double sound_speed, double dilatation,
-                                double strain_rate, double speed) {
+                                double linear, double quadratic, double strain_rate, double speed) {
   const double closing = dilatation < 0.0 ? -(cell * dilatation) : 0.0;
-  const double linear = viscosity.linear * sound_speed;
-  const double pressure = density * (viscosity.quadratic * (closing * closing) + linear * closing);
-  const double Q = linear + viscosity.quadratic * closing;
-  const double shock = closing > 0.0 ? Q : 0.0;
+  // With what really acts, so that smooth flow pays nothing.
+  const double share =
+      viscosity.linear * linear * (closing / (closing + least_closing * sound_speed));
+  const double Q = share * sound_speed + viscosity.quadratic * quadratic * closing;
+  const double pressure = density * (Q * closing);
   // What divides is the same for all particles of a loop.
   const double wave =
-      (speed + shock + std::sqrt(shock * shock + sound_speed * sound_speed)) * (1.0 / (cfl * cell));
+      (speed + Q + std::sqrt(Q * Q + sound_speed * sound_speed)) * (1.0 / (cfl * cell));
   const double alone = (speed + lone * sound_speed) * (1.0 / cell);
   const double strain = strain_rate * (1.0 / largest_strain_increment);
   const double rate = wave > alone ? wave : alone;
@@ -60,7 +67,7 @@ struct Columns {
   std::array<double*, symmetric_size<Dim>> deviator, back_stress;
   std::array<double*, Dim> velocity;
   std::int32_t* failed;
-  const double *heat, *dilatation_end, *dilatation_mid;
+  const double *heat, *viscous_linear, *viscous_quadratic;
   const double* plastic_increment;  // null unless known beforehand
   std::array<const double*, Dim * Dim> gradient;
   std::array<const double*, rate_size<Dim>> rate;
@@ -107,8 +114,8 @@ Columns<Dim> particle_columns(Particles<Dim>& p) {
 template <int Dim>
 void set_step_columns(const StepData<Dim>& step, std::size_t first, Columns<Dim>& c) {
   c.heat = step.heat.data() + first;
-  c.dilatation_end = step.dilatation_end.data() + first;
-  c.dilatation_mid = step.dilatation_mid.data() + first;
+  c.viscous_linear = step.viscous_linear.data() + first;
+  c.viscous_quadratic = step.viscous_quadratic.data() + first;
   for (int k = 0; k < Dim * Dim; ++k) c.gradient[k] = step.gradient[k].data() + first;
   for (int k = 0; k < rate_size<Dim>; ++k) c.rate[k] = step.rate[k].data() + first;
 }
@@ -197,7 +204,7 @@ inline void release(const MieGruneisen& law, bool fails, ReturnMapping<Dim>& map
 }
 
 /// One particle, load - call - store.
-template <int Dim, Yielding How, bool Spall, bool Conserving, bool Averaging>
+template <int Dim, Yielding How, bool Spall, bool Conserving>
 inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
                             double lone, const Columns<Dim>& c, std::size_t i, std::size_t local,
                             BlockResults& results) {
@@ -210,19 +217,15 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   }
   const Motion<Dim> motion = load_motion<Dim>(settings, dt, c, i);
   const double start_volume = 1.0 / c.density[i];
-  const double dilatation_mid = Averaging ? c.dilatation_mid[i] : trace<Dim>(motion.rate);
+  const double dilatation = trace<Dim>(motion.rate);
   const double q = c.viscous_pressure[i];
-  const double viscous = -dt * start_volume * q * dilatation_mid;
+  const double viscous = -dt * start_volume * q * dilatation;
   const double work =
-      dt * start_volume * (power<Dim>(s, motion.rate) - c.pressure[i] * dilatation_mid) + viscous;
+      dt * start_volume * (power<Dim>(s, motion.rate) - c.pressure[i] * dilatation) + viscous;
   const double energy = c.energy[i] + (work + c.heat[i]);
 
   const auto increment = deformation_increment(motion.F);
-  double ratio = increment.volume_ratio, dilatation_end = motion.dilatation;
-  if constexpr (Averaging) {
-    ratio *= (1.0 + dt * c.dilatation_end[i]) / (1.0 + dt * dilatation_end);
-    dilatation_end = c.dilatation_end[i];
-  }
+  const double ratio = increment.volume_ratio;
   const double density = c.density[i] / ratio;
   const bool failed_before = Spall && c.failed[i] != 0;
   const auto [start, trial] =
@@ -256,7 +259,8 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   const double sound_speed = std::sqrt(c2 + 4.0 / 3.0 * m.strength.shear * volume);
   const ViscousStep next =
       viscous_step(settings.viscosity, settings.cell, settings.cfl, lone, density, sound_speed,
-                   dilatation_end, motion.strain_rate, motion.speed);
+                   motion.dilatation, c.viscous_linear[i], c.viscous_quadratic[i],
+                   motion.strain_rate, motion.speed);
 
   for (int k = 0; k < size; ++k) c.deviator[k][i] = mapped.deviator[k];
   if constexpr (kinematic) {

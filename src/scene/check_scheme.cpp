@@ -1,58 +1,68 @@
 #include <string>
 
 #include "check_scene.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
 namespace {
 
-constexpr double greatest_hat_averaging = 0.5;
+std::string_view name_of(ShapeFunction shape) {
+  constexpr std::string_view names[] = {"linear", "gimp", "quadratic", "cubic"};
+  return names[static_cast<std::size_t>(shape)];
+}
 
 /// Combinations that cannot work, with the reason.
 void check_combination(const Transfer& transfer, Report& report) {
-  const bool linear = transfer.shape == ShapeFunction::linear;
-  const bool spline = !is_hat(transfer.shape);
-  if (!spline && transfer.velocity != VelocityTransfer::flip) {
+  const TransferScheme& scheme = scheme_of(transfer.velocity);
+  if (!suits(scheme, transfer.shape)) {
+    std::vector<std::string> allowed;
+    for (const TransferScheme& one : transfer_schemes) {
+      if (suits(one, transfer.shape)) allowed.emplace_back(one.name);
+    }
     add_problem("transfer.velocity",
-                std::string("found a transfer that needs B-splines, allowed \"flip\" with "
-                            "transfer.shape = \"") +
-                    (linear ? "linear" : "gimp") + "\"",
+                "found \"" + std::string(scheme.name) + "\", which transfer.shape = \"" +
+                    std::string(name_of(transfer.shape)) + "\" cannot carry, allowed " +
+                    allowed_names(allowed) + " with it",
                 report);
   }
-  // Slopes that jump where a particle crosses a cell feed what the average hides, and it grows.
-  if (!spline && transfer.averaging > greatest_hat_averaging) {
-    add_problem("transfer.averaging",
-                "found " + plain_number(transfer.averaging) +
-                    ", allowed up to 0.5 with transfer.shape = \"linear\" or \"gimp\": more is "
-                    "unstable when material crosses cells",
+  if (scheme.keeps == Keeps::nothing && transfer.damping > 0.0) {
+    add_problem("transfer.damping",
+                "found " + plain_number(transfer.damping) +
+                    ", allowed 0 with transfer.velocity = \"" + std::string(scheme.name) +
+                    "\", which keeps nothing that could be damped",
                 report);
   }
 }
 
-/// The largest cfl of a scheme: the noise of FLIP and of hats grows at large steps.
+/// The largest cfl of a scheme.
 void check_step(const Scene& scene, Report& report) {
-  const Transfer& transfer = scene.transfer;
   if (!good(report, {"transfer.velocity", "time.cfl"})) return;
-  constexpr double most = 0.9;
-  if (transfer.velocity == VelocityTransfer::apic || scene.time.cfl <= most) return;
+  const TransferScheme& scheme = scheme_of(scene.transfer.velocity);
+  if (scene.time.cfl <= scheme.largest_cfl) return;
   add_problem("time.cfl",
-              "found " + plain_number(scene.time.cfl) + ", allowed up to " + plain_number(most) +
-                  " unless transfer.velocity = \"apic\"",
+              "found " + plain_number(scene.time.cfl) + ", allowed up to " +
+                  plain_number(scheme.largest_cfl) + " with transfer.velocity = \"" +
+                  std::string(scheme.name) + "\"",
+              report);
+}
+
+void check_viscosity(const Scene& scene, Report& report) {
+  if (!good(report, {"viscosity.limited", "transfer.shape"}) || !scene.viscosity.limited) return;
+  if (scene.transfer.shape == ShapeFunction::cubic) return;
+  add_problem("viscosity.limited",
+              "found true, allowed with transfer.shape = \"cubic\": a particle of the others sees "
+              "no three jumps in a row",
               report);
 }
 
 void check_transfer(const Scene& scene, Report& report) {
-  const Transfer& transfer = scene.transfer;
-  if (!good(report, {"transfer.velocity", "transfer.damping"})) return;
-  if (transfer.damping > 0.0 && transfer.velocity != VelocityTransfer::flip) {
-    add_problem("transfer.damping",
-                "found " + plain_number(transfer.damping) +
-                    " 1/s, allowed 0 unless transfer.velocity = \"flip\"",
-                report);
+  if (!good(report, {"transfer.velocity", "transfer.damping", "transfer.shape"})) {
+    return;
   }
-  if (!good(report, {"transfer.shape", "transfer.averaging"})) return;
-  check_combination(transfer, report);
+  check_combination(scene.transfer, report);
   check_step(scene, report);
+  check_viscosity(scene, report);
 }
 
 void check_conduction(const Scene& scene, Report& report) {

@@ -61,9 +61,16 @@ void visit_body_force(Visitor& visitor, Scene& scene) {
 }
 
 template <typename Visitor>
-void visit_viscosity(Visitor& visitor, Viscosity& viscosity) {
+void visit_viscosity(Visitor& visitor, Scene& scene) {
+  Viscosity& viscosity = scene.viscosity;
+  visitor.fallback(viscosity.limited, scene.transfer.shape == ShapeFunction::cubic);
+  visitor.flag("limited", viscosity.limited,
+               {"true where it acts only on jumps of the velocity that their neighbours do not "
+                "share; cubic splines only"});
+  visitor.fallback(viscosity.linear, viscosity.limited ? 1.0 : 0.6);
   visitor.number("linear", viscosity.linear,
                  {not_negative, "", "artificial viscosity, times the sound speed"});
+  visitor.fallback(viscosity.quadratic, viscosity.limited ? 5.0 : 2.25);
   visitor.number("quadratic", viscosity.quadratic,
                  {not_negative, "", "artificial viscosity, times the velocity jump"});
 }
@@ -90,12 +97,14 @@ void visit_contact(Visitor& visitor, Contact& contact) {
 }
 
 template <typename Visitor>
-void visit_time(Visitor& visitor, TimeControl& time) {
+void visit_time(Visitor& visitor, Scene& scene) {
+  TimeControl& time = scene.time;
   visitor.number("end", time.end, {positive, "s", "of the run; impact is at 0", Need::required});
+  visitor.fallback(time.cfl, scheme_of(scene.transfer.velocity).cfl);
   visitor.number("cfl", time.cfl,
                  {{.low = 0.0, .high = 1.5, .above_low = true},
                   "",
-                  "share of a cell that a wave may cross in a step; above 0.9 with apic only"});
+                  "share of a cell that a wave may cross in a step; up to 0.9 with pic and flip"});
   integer(visitor, "max_steps", time.max_steps, {not_negative, "", "0 = no limit"});
   visitor.flag("sleep", time.sleep, {"true where rows that no wave has reached only move"});
 }
@@ -199,12 +208,12 @@ void visit_scene(Visitor& visitor, Scene& scene) {
   visitor.table("transfer", {"Transfer between particles and grid."},
                 [&](auto& inner) { visit_transfer(inner, scene.transfer); });
   visitor.table("viscosity", {"Artificial viscosity, its coefficients."},
-                [&](auto& inner) { visit_viscosity(inner, scene.viscosity); });
+                [&](auto& inner) { visit_viscosity(inner, scene); });
   visitor.table("conduction", {"Conduction of heat."},
                 [&](auto& inner) { visit_conduction(inner, scene.conduction); });
   visitor.table("contact", {"Contact between grains."},
                 [&](auto& inner) { visit_contact(inner, scene.contact); });
-  visitor.table("time", {"Time."}, [&](auto& inner) { visit_time(inner, scene.time); });
+  visitor.table("time", {"Time."}, [&](auto& inner) { visit_time(inner, scene); });
   visitor.table("output", {"What is written and when."},
                 [&](auto& inner) { visit_output(inner, scene); });
   visitor.table("morphology", {"Minkowski functionals while the run goes."},

@@ -1,7 +1,7 @@
 #pragma once
 // The keys of [transfer]; their defaults depend on each other.
 
-#include "poreshock/scene/scene.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
@@ -12,26 +12,31 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
                                     {"gimp", ShapeFunction::gimp},
                                     {"quadratic", ShapeFunction::quadratic},
                                     {"cubic", ShapeFunction::cubic}};
-  const Names<VelocityTransfer> transfers{{"pic", VelocityTransfer::pic},
-                                          {"flip", VelocityTransfer::flip},
-                                          {"apic", VelocityTransfer::apic}};
+  Names<VelocityTransfer> transfers;
+  for (const TransferScheme& one : transfer_schemes) {
+    transfers.emplace_back(one.name, one.velocity);
+  }
   bool lineage = false;
   const Names<bool> presets{{"none", false}, {"lineage", true}};
   choice(visitor, "preset", lineage, presets,
-         {"lineage: gimp, flip, no averaging by default, the common scheme of 2008-2010"});
+         {"lineage: gimp and flip by default, the common scheme of 2008-2010"});
   if (lineage) {
     visitor.fallback(transfer.shape, ShapeFunction::gimp);
-    visitor.fallback(transfer.velocity, VelocityTransfer::flip);
   }
   choice(visitor, "shape", transfer.shape, shapes,
          {"between particles and grid: hat, uniform GIMP, quadratic or cubic B-spline"});
+  // The richest that the shape carries.
+  visitor.fallback(transfer.velocity, is_hat(transfer.shape) ? VelocityTransfer::flip
+                                      : transfer.shape == ShapeFunction::quadratic
+                                          ? VelocityTransfer::aflip
+                                          : VelocityTransfer::polyflip);
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
-  const bool hat = is_hat(transfer.shape);
+  visitor.fallback(transfer.damping, scheme_of(transfer.velocity).damping);
   visitor.number("damping", transfer.damping,
-                 {not_negative, "1/s", "of FLIP velocity noise; with flip only"});
-  visitor.fallback(transfer.averaging, hat ? 0.0 : 1.0);
-  visitor.number("averaging", transfer.averaging,
-                 {share, "", "share of the averaged dilatation, by default 1, 0 with hats"});
+                 {{.low = 0.0, .high = 10.0},
+                  "",
+                  "of what the grid does not see of a particle's motion, while sound crosses a "
+                  "cell; 0 with transfers that keep nothing of it"});
 }
 
 }  // namespace poreshock::scene_text

@@ -50,7 +50,7 @@ bool sound_clock(const RunState& state) {
 }
 
 bool same_columns(const ParticleOptions& a, const ParticleOptions& b) {
-  return a.affine == b.affine && a.back_stress == b.back_stress &&
+  return a.affine == b.affine && a.quadratic == b.quadratic && a.back_stress == b.back_stress &&
          a.conducted_heat == b.conducted_heat && a.failed == b.failed && a.facing == b.facing;
 }
 

@@ -36,12 +36,6 @@ void split_by_facing(Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void share_averages(Simulation<Dim>& sim) {
-  const GrainFields& all = sim.grain_fields;
-  if (!all.sides.empty()) share_sums(all.sides, grids_of(all, &VelocityField::averages));
-}
-
-template <int Dim>
 void join_fields(Simulation<Dim>& sim) {
   const GrainFields& all = sim.grain_fields;
   if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::grid));
@@ -57,8 +51,6 @@ template void mark_surfaces<2>(Simulation<2>&);
 template void mark_surfaces<3>(Simulation<3>&);
 template void split_by_facing<2>(Simulation<2>&);
 template void split_by_facing<3>(Simulation<3>&);
-template void share_averages<2>(Simulation<2>&);
-template void share_averages<3>(Simulation<3>&);
 template void join_fields<2>(Simulation<2>&);
 template void join_fields<3>(Simulation<3>&);
 template void spread_fields<2>(Simulation<2>&);

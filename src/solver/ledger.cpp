@@ -16,7 +16,6 @@ constexpr double quanta_per_particle = 1125899906842624.0;
 /// Visits all 128-bit sums in a fixed order.
 template <class LedgerType, class Visitor>
 void for_each_sum(LedgerType& l, Visitor&& visit) {
-  visit(l.nodes.filter_heat);
   visit(l.nodes.wall_heat);
   visit(l.nodes.contact_heat);
   visit(l.nodes.friction_heat);
@@ -42,16 +41,8 @@ void for_each_counter(LedgerType& l, Visitor&& visit) {
   visit(l.guards.wall_crossing);
   visit(l.guards.temperature);
   visit(l.guards.pixel);
-}
-
-template <int Dim>
-double kinetic_energy(const Particles<Dim>& particles, std::size_t p, double inertia) {
-  double speed2 = 0.0, spin2 = 0.0;
-  for (int a = 0; a < Dim; ++a) speed2 += particles.velocity[a][p] * particles.velocity[a][p];
-  if (inertia > 0.0) {
-    for (const auto& column : particles.affine) spin2 += column[p] * column[p];
-  }
-  return 0.5 * particles.mass[p] * (speed2 + inertia * spin2);
+  visit(l.guards.negative_heat);
+  visit(l.shortened);
 }
 
 template <int Dim>
@@ -120,7 +111,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   std::array<Int128, 3> momentum{};
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double m = particles.mass[p];
-    kinetic += quantise(kinetic_energy<Dim>(particles, p, inertia), per_quantum);
+    kinetic += quantise(m * kinetic_energy(particles, inertia, p), per_quantum);
     internal += quantise(m * particles.internal_energy[p], per_quantum);
     plastic += quantise(m * particles.plastic_work[p], per_quantum);
     for (int a = 0; a < Dim; ++a) {
@@ -147,7 +138,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
                               ledger.nodes.wall_work,
                               ledger.nodes.body_work,
                               ledger.viscous_heat,
-                              ledger.nodes.filter_heat + ledger.transfer_heat,
+                              ledger.transfer_heat,
                               ledger.nodes.wall_heat,
                               ledger.conduction,
                               ledger.nodes.contact_heat,
@@ -156,7 +147,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
                                       ledger.guards.compression + ledger.guards.sound_speed +
                                           ledger.guards.wall_crossing + ledger.guards.temperature +
-                                          ledger.guards.pixel};
+                                          ledger.guards.pixel + ledger.guards.negative_heat};
   sum(counts, communicator);
   const auto energy = [&](Int128 quanta) {
     return static_cast<double>(quanta) * ledger.energy_quantum;
@@ -199,8 +190,8 @@ template <int Dim>
 void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia, Ledger& ledger) {
   ++ledger.escaped_particles;
   ledger.escaped_mass += quantise(particles.mass[p], 1.0 / mass_quantum(ledger));
-  ledger.escaped_energy +=
-      quantise(kinetic_energy<Dim>(particles, p, inertia), ledger.nodes.inverse_energy_quantum);
+  ledger.escaped_energy += quantise(particles.mass[p] * kinetic_energy(particles, inertia, p),
+                                    ledger.nodes.inverse_energy_quantum);
   ledger.escaped_energy += quantise(particles.mass[p] * particles.internal_energy[p],
                                     ledger.nodes.inverse_energy_quantum);
   for (int a = 0; a < Dim; ++a) {

@@ -93,12 +93,8 @@ void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
     const double inverse_cell = 1.0 / shape.cell;
     release_fields(sim.grain_fields);
     sim.grid.reset();
-    sim.averages.reset();
     sim.heat.reset();
     sim.grid = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
-    if (sim.scene.transfer.averaging > 0.0) {
-      sim.averages = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
-    }
     if (conducts_heat(sim.scene)) {
       sim.heat = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
     }

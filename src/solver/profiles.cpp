@@ -125,19 +125,14 @@ std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim,
   const Particles<Dim>& particles = sim.particles;
   std::vector<Int128> sums(fluctuation_sum_count * mean[0].size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    std::array<double, Dim> gradient{};  // squares of the affine part of each component
-    if (inertia > 0.0) {
-      for (std::size_t k = 0; k < particles.affine.size(); ++k) {
-        gradient[k / Dim] += particles.affine[k][p] * particles.affine[k][p];
-      }
-    }
+    const std::array<double, Dim> modes = mode_squares(particles, inertia, p);
     const auto add = [&](std::size_t row, double share) {
       if (std::isnan(mean[0][row])) return;
       const double half_mass = 0.5 * (share * particles.mass[p]);
       double square = 0.0, along = 0.0;
       for (std::size_t a = 0; a < Dim; ++a) {
         const double deviation = particles.velocity[a][p] - mean[a][row];
-        along = inertia * gradient[a] + deviation * deviation;
+        along = modes[a] + deviation * deviation;
         square += along;
       }
       Int128* const to = &sums[fluctuation_sum_count * row];

@@ -16,10 +16,9 @@ double communication(const PhaseTable& phases) {
 }
 
 double compute(const PhaseTable& phases) {
-  return seconds_in(
-      phases,
-      {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::average, PhaseName::grid_update,
-       PhaseName::contact, PhaseName::grid_to_particles, PhaseName::conduction, PhaseName::stress});
+  return seconds_in(phases, {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::grid_update,
+                             PhaseName::contact, PhaseName::grid_to_particles,
+                             PhaseName::conduction, PhaseName::stress});
 }
 
 std::string duration(double s) {

@@ -12,9 +12,8 @@ PerWork<double> work_seconds(const PhaseTable& phases) {
   const auto add = [&](Work kind, std::initializer_list<PhaseName> names) {
     seconds[static_cast<std::size_t>(kind)] = seconds_in(phases, names);
   };
-  add(Work::particle,
-      {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::average, PhaseName::grid_update,
-       PhaseName::grid_to_particles, PhaseName::conduction, PhaseName::stress});
+  add(Work::particle, {PhaseName::sort, PhaseName::particles_to_grid, PhaseName::grid_update,
+                       PhaseName::grid_to_particles, PhaseName::conduction, PhaseName::stress});
   add(Work::contact_node, {PhaseName::contact});
   add(Work::recorded_particle, {PhaseName::morphology, PhaseName::profile, PhaseName::snapshot});
   return seconds;

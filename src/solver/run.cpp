@@ -57,6 +57,26 @@ void write_scene_file(const std::string& folder, const Simulation<Dim>& sim) {
   write_text(path, sim.scene_text);
 }
 
+/// Where the heat of the run came from, in percent; with a warning where the numerics made too
+/// much.
+void show_heat(const HistoryRow& row, const Scene& scene) {
+  constexpr double most = 0.15;
+  const double heat = all_heat(row);
+  if (!(heat > 0.0)) return;
+  const auto percent = [&](double part) { return 100.0 * part / heat; };
+  std::printf(
+      "heat: plastic %.1f %%, viscous %.1f %%, wall and friction %.1f %%; numerical dissipation "
+      "%.1f %% (filter %.1f, contact %.1f)\n",
+      percent(row.plastic_work), percent(row.viscous_heat),
+      percent(row.wall_heat + row.friction_heat), 100.0 * numerical_share(row),
+      percent(row.filter_heat), percent(row.contact_heat));
+  if (numerical_share(row) <= most) return;
+  std::printf(
+      "warning: numerical dissipation is %.0f %% of all heat; above 15 %% the cells are too coarse "
+      "for the heat of this sample. Set domain.cell to %.3g m or less.\n",
+      100.0 * numerical_share(row), 0.5 * scene.domain.cell);
+}
+
 /// True when nothing is left to compute. Not collective.
 bool at_end(const TimeControl& limits, const Clock& clock) {
   return clock.time >= limits.end || (limits.max_steps > 0 && clock.step >= limits.max_steps);
@@ -125,23 +145,23 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
     warn(std::string(failure.what()) + "; timings.json is left out", sim.communicator);
   }
   const Ledger& l = sim.ledger;
-  std::vector<std::int64_t> guards = {l.guards.compression,   l.guards.sound_speed,
-                                      l.guards.wall_crossing, l.guards.temperature,
-                                      l.guards.pixel,         l.escaped_particles};
+  std::vector<std::int64_t> guards = {
+      l.guards.compression, l.guards.sound_speed,   l.guards.wall_crossing, l.guards.temperature,
+      l.guards.pixel,       l.guards.negative_heat, l.escaped_particles,    l.shortened};
   sum(guards, sim.communicator);
   std::vector<Int128> escaped = {l.escaped_mass};
   sum(escaped, sim.communicator);
   if (rank(sim.communicator) != 0) return;
   if (!options.quiet) std::printf("\n%s", timings_table(timings).c_str());
+  const auto count = [&](std::size_t k) { return static_cast<long long>(guards[k]); };
   std::printf(
       "energy drift %.1e, guards: compression %lld, sound speed %lld, wall %lld, temperature %lld, "
-      "pixel %lld; "
+      "pixel %lld, negative heat %lld; "
       "escaped particles %lld (%.6g %s); checksum %016llx\n",
-      energy_status(sim, recorder).drift, static_cast<long long>(guards[0]),
-      static_cast<long long>(guards[1]), static_cast<long long>(guards[2]),
-      static_cast<long long>(guards[3]), static_cast<long long>(guards[4]),
-      static_cast<long long>(guards[5]), static_cast<double>(escaped[0]) * mass_quantum(l),
+      energy_status(sim, recorder).drift, count(0), count(1), count(2), count(3), count(4),
+      count(5), count(6), static_cast<double>(escaped[0]) * mass_quantum(l),
       Dim == 2 ? "kg/m" : "kg", static_cast<unsigned long long>(bits));
+  show_heat(recorder.last_row, sim.scene);
   for (const std::string& name : recorder.backlog.left_out) {
     std::printf("left out: %s\n", name.c_str());
   }

@@ -6,7 +6,6 @@
 #include "poreshock/physics/momentum.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
-#include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/facing.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
@@ -34,61 +33,42 @@ void for_each_chunk(const CellOrder& cells, const SlabGrid& grid, Visit&& visit)
   }
 }
 
+template <int Dim>
+ParticleMotion<Dim> particle_motion(double dt, const Simulation<Dim>& sim) {
+  return {dt,
+          lost_share(sim.scene.transfer, sim.sound_speed, sim.scene.domain.cell, dt),
+          sim.stress_settings.grid_velocity,
+          sim.scene.viscosity.limited,
+          sim.ledger.nodes.inverse_energy_quantum,
+          1e-16 * sim.sound_speed * sim.sound_speed};
+}
+
 /// Nodes to particles and stress of the particles of some rows in one velocity field.
 template <int Dim>
-void update_particles(const CellOrder& cells, RowRange rows, const SlabGrid& grid,
-                      const SlabGrid* averages, double dt, Simulation<Dim>& sim,
-                      StressReport& report) {
-  const Transfer& transfer = sim.scene.transfer;
+void update_particles(const CellOrder& cells, RowRange rows, const SlabGrid& grid, double dt,
+                      Simulation<Dim>& sim, StepReport& report) {
   {
     const Phase phase(sim.phases, PhaseName::grid_to_particles);
-    grid_to_particles(grid, averages, cells, rows, transfer, sim.stress_settings.grid_velocity, dt,
-                      sim.ledger.nodes.inverse_energy_quantum, sim.particles, sim.step_data,
-                      sim.ledger.transfer_heat);
+    grid_to_particles(grid, cells, rows, sim.scene.transfer, particle_motion(dt, sim),
+                      sim.particles, sim.step_data, report.transfer);
   }
   const Phase phase(sim.phases, PhaseName::stress);
   const std::uint32_t first = first_place(cells, grid, rows.first);
   const std::span places(cells.order.data() + first, first_place(cells, grid, rows.last) - first);
   update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, sim.particles,
-                     report);
+                     report.stress);
   if (sim.particles.options.facing) {
     turn_facing<Dim>(sim.step_data.gradient, dt, places, sim.particles);
   }
 }
 
-/// Averages p + q of the particles of all fields to their nodes.
-template <int Dim>
-void average_pressures(Simulation<Dim>& sim) {
-  const Phase phase(sim.phases, PhaseName::average);
-  for_each_field(sim, [&](const CellOrder& cells, SlabGrid&, SlabGrid* averages) {
-    sum_pressure(sim.particles, cells, sim.scene.transfer, *averages);
-  });
-  share_averages(sim);
-  for_each_field(
-      sim, [](const CellOrder&, SlabGrid&, SlabGrid* averages) { divide_by_volume(*averages); });
-}
-
-/// Averages the dilatations of the particles of all fields to their nodes.
-template <int Dim>
-void average_dilatations(Simulation<Dim>& sim) {
-  const Phase phase(sim.phases, PhaseName::average);
-  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
-    sum_dilatation(sim.particles, cells, sim.scene.transfer, grid, *averages);
-  });
-  share_averages(sim);
-  for_each_field(sim, [](const CellOrder&, SlabGrid& grid, SlabGrid* averages) {
-    divide_dilatation<Dim>(grid, *averages);
-  });
-}
-
 /// Particles of all fields to their nodes.
 template <int Dim>
 void sum_particles(Simulation<Dim>& sim) {
-  if (sim.scene.transfer.averaging > 0.0) average_pressures(sim);
-  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid) {
     {
       const Phase phase(sim.phases, PhaseName::particles_to_grid);
-      particles_to_grid(sim.particles, cells, sim.scene.transfer, averages, grid);
+      particles_to_grid(sim.particles, cells, sim.scene.transfer, grid);
     }
     const Phase phase(sim.phases, PhaseName::exchange);
     grid.exchange();
@@ -99,12 +79,11 @@ void sum_particles(Simulation<Dim>& sim) {
 template <int Dim>
 void update_grids(double dt, Simulation<Dim>& sim) {
   NodeLedger& ledger = sim.ledger.nodes;
-  const Transfer& transfer = sim.scene.transfer;
   {
     const Phase phase(sim.phases, PhaseName::grid_update);
     join_fields(sim);
-    for_each_side(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
-      integrate_momentum<Dim>(sim.body_force, projects(transfer.velocity), dt, grid, ledger);
+    for_each_side(sim, [&](const CellOrder&, SlabGrid& grid) {
+      integrate_momentum<Dim>(sim.body_force, dt, grid);
     });
   }
   {
@@ -112,14 +91,14 @@ void update_grids(double dt, Simulation<Dim>& sim) {
     collide(dt, sim);
   }
   const Phase phase(sim.phases, PhaseName::grid_update);
-  for_each_side(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
+  for_each_side(sim, [&](const CellOrder&, SlabGrid& grid) {
     apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, grid, ledger);
     if (sim.body_force.squaredNorm() > 0.0) add_body_work<Dim>(sim.body_force, dt, grid, ledger);
   });
   finish_contact(sim);
   spread_fields(sim);
-  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid, SlabGrid*) {
-    prepare_gather<Dim>(transfer, damped_share(transfer, dt), grid);
+  for_each_field(sim, [&](const CellOrder&, SlabGrid& grid) {
+    prepare_gather<Dim>(particle_motion(dt, sim).lost, grid);
   });
 }
 
@@ -128,7 +107,6 @@ void update_grids(double dt, Simulation<Dim>& sim) {
 template <int Dim>
 void advance(Simulation<Dim>& sim, double dt) {
   const Transfer& transfer = sim.scene.transfer;
-  const bool averaging = transfer.averaging > 0.0;
   sort_particles(sim);
   sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
   split_by_colour(sim);
@@ -142,18 +120,16 @@ void advance(Simulation<Dim>& sim, double dt) {
   }
   sum_particles(sim);
   update_grids(dt, sim);
-  if (averaging) average_dilatations(sim);
-  StressReport report;
-  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid, SlabGrid* averages) {
-    for_each_chunk(cells, grid, [&](RowRange rows) {
-      update_particles(cells, rows, grid, averages, dt, sim, report);
-    });
+  StepReport report;
+  for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid) {
+    for_each_chunk(cells, grid,
+                   [&](RowRange rows) { update_particles(cells, rows, grid, dt, sim, report); });
   });
   move_sleeping(dt, sim);
   count_work(sim);
   // Those asleep are still in the state that the first limit comes from.
   if (sleeping_particles(sim) > 0)
-    report.dt_limit = std::min(report.dt_limit, sim.clock.first_limit);
+    report.stress.dt_limit = std::min(report.stress.dt_limit, sim.clock.first_limit);
   take_report(report, sim);
   sim.clock.disturbed = disturbed_rows(sim);
 }

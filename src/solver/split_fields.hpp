@@ -12,7 +12,6 @@ void make_fields(int parts, Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
   all.fields.clear();
   if (parts == 1) return;
-  const bool averaging = sim.averages != nullptr;
   std::size_t used = 0;
   const auto new_grid = [&] {
     if (used == all.grids.size()) {
@@ -24,8 +23,7 @@ void make_fields(int parts, Simulation<Dim>& sim) {
   for (int c = 0; c < parts; ++c) {
     VelocityField& field = all.fields.emplace_back();
     field.grid = c == 0 ? sim.grid.get() : new_grid();
-    if (averaging) field.averages = c == 0 ? sim.averages.get() : new_grid();
-    field.surfaces = averaging ? field.averages : new_grid();
+    field.surfaces = new_grid();
   }
 }
 

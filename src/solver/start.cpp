@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -15,9 +16,20 @@ namespace poreshock {
 
 namespace {
 
-/// Up to this cfl a particle alone stays below its own bound on cubic splines: what compresses it
-/// meets the viscosity, which halves the step.
-constexpr double safe_cfl = 0.5;
+/// Stiffness of a particle alone in its cell, per axis and squared cell: its gradient sees S, the
+/// most that slope^2/weight add up to, and its affine part, which remembers the motion, moves by
+/// 1/D at once, so that 4/dt^2 is 2 S - 1/D. Without affine modes nothing remembers, and time.cfl
+/// bounds the step alone.
+double lone_stiffness(const Transfer& transfer) {
+  double stiffness = 0.0;
+  if (scheme_of(transfer.velocity).modes == Modes::constant) return stiffness;
+  with_shape(transfer, [&]<class Spline>(const Spline&) {
+    if constexpr (is_spline<Spline>) {
+      stiffness = 2.0 * Spline::stiffness - Spline::inverse_inertia;
+    }
+  });
+  return stiffness;
+}
 
 /// Velocity of the background grid: it rides with walls, so that they stay on a line of nodes.
 template <int Dim>
@@ -46,18 +58,16 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   for (const MaterialParameters& parameters : scene.materials) {
     sim.materials.push_back(make_material(parameters));
     if (parameters.kinematic_share > 0.0) sim.particles.options.back_stress = true;
+    sim.sound_speed = std::max(sim.sound_speed, longitudinal_sound_speed(sim.materials.back()));
   }
-  sim.particles.options.affine = scene.transfer.velocity == VelocityTransfer::apic;
+  const Modes modes = scheme_of(scene.transfer.velocity).modes;
+  sim.particles.options.affine = modes != Modes::constant;
+  sim.particles.options.quadratic = modes == Modes::quadratic;
   sim.stress_settings.thermal = scene.thermal;
   sim.stress_settings.viscosity = scene.viscosity;
-  sim.stress_settings.averaging = scene.transfer.averaging > 0.0;
   sim.stress_settings.cell = scene.domain.cell;
   sim.stress_settings.cfl = scene.time.cfl;
-  if (sim.particles.options.affine && scene.time.cfl > safe_cfl) {
-    with_shape(scene.transfer, [&]<class Spline>(const Spline&) {
-      if constexpr (is_spline<Spline>) sim.stress_settings.stiffness = Spline::stiffness;
-    });
-  }
+  sim.stress_settings.stiffness = lone_stiffness(scene.transfer);
   sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
   sim.particles.options.failed = can_fail(scene);
@@ -96,9 +106,9 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
-  StressReport stress;
-  initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, stress);
-  take_report(stress, sim);
+  StepReport first;
+  initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, first.stress);
+  take_report(first, sim);
   sim.clock.disturbed = disturbed_rows(sim);
   agree_on_step(false, sim.clock, communicator);
   return sim;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/blocks.hpp"
 #include "poreshock/transfer/sweep.hpp"
 
@@ -14,6 +13,19 @@ namespace {
 constexpr double least_emptiness = 0.02;  // less is noise of the lattice of particles
 constexpr double least_slope = 1.0e-9;    // per cell; less is rounding
 constexpr int passes = 2;                 // of the average; two cells or more each way
+
+/// Turns sums of volume, lane 0, and volume x number into averages; empty nodes stay zero. Fills
+/// the periodic images.
+void divide_by_volume(SlabGrid& averages) {
+  for (int row = averages.first_row(); row < averages.node_end(); ++row) {
+    Lanes* nodes = averages.row(row);
+    for (int i = 0; i < averages.shape().row_size; ++i) {
+      const double volume = nodes[i][0];
+      if (volume > 0.0) nodes[i] = nodes[i] / volume;
+    }
+  }
+  averages.fill_periodic_images();
+}
 
 /// Volume-weighted average of a number per particle, to the nodes: lane 1. Collective.
 template <int Dim, class Spline>

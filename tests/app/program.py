@@ -206,7 +206,8 @@ class ProgramTest(unittest.TestCase):
 
 def closing_lines(result):
     """Counters and checksum, and how far the run went: what must not depend on ranks or restarts."""
-    match = re.search(r"^energy drift \S+, (guards: .*; escaped particles \d+ \([^)]*\); checksum [0-9a-f]{16})\n"
+    match = re.search(r"^energy drift \S+, (guards: .*, negative heat 0; escaped particles \d+ \([^)]*\); "
+                      r"checksum [0-9a-f]{16}\n(?:heat: .*\n(?:warning: numerical dissipation .*\n)?)?)"
                       r"(finished|stopped) at (step \d+, time \S+ ns), in \S+\n\Z", result.output, re.M)
     if match is None:
         raise AssertionError(str(result))

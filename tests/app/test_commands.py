@@ -84,7 +84,7 @@ class Commands(ProgramTest):
         # Sound is 1.2 times as fast as at rest, the viscosity acts, and voids make 1.6 times as many steps.
         shear = 69e9 / (2.0 * 1.33)
         sound = 1.2 * math.sqrt(5350.0**2 + 4.0 / 3.0 * shear / 2700.0)
-        wave = 1500.0 + 0.6 * sound + math.hypot(0.6 * sound, sound)
+        wave = 1500.0 + 1.0 * sound + math.hypot(1.0 * sound, sound)
         step = 0.35 * 10e-6 / (1.6 * wave)
         self.assertIn(f"\ntypical time step       {step:.3g} s, about {8 * math.ceil(2.5e-9 / step)} steps\n", text)
         self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
@@ -104,8 +104,8 @@ class Commands(ProgramTest):
 
     def test_check_warns_of_what_costs_too_much_and_names_the_keys(self):
         self.assertEqual(self.warning(), [])
-        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 5\.\d+ days on 1 ranks\. Start it on more, end "
-                         r"it earlier with time\.end, or set domain\.cell to 1\.7\d+e-05 m for one day\.$")
+        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 7\.\d+ days on 1 ranks\. Start it on more, end "
+                         r"it earlier with time\.end, or set domain\.cell to 1\.9\d+e-05 m for one day\.$")
         # A thousand million snapshots of half a megabyte.
         self.assertRegex(self.warning("time.end=1e-3", "output.beat=1e-12", "output.snapshot=1e-12")[1],
                          r"^The files of the run need about \S+ GB, 1e\+09 snapshots of \S+ GB among them; this disk has \S+ GB "
@@ -130,6 +130,13 @@ class Commands(ProgramTest):
                          r"^output\.beat = 5e-11 s sets the time step, which else were about (1\.\d+e-10) s: steps land on its "
                          r"multiples, and 400 of them reach time\.end instead of \d+\. Set output\.beat to 1\.\d+e-09 s or more; ")
         self.assertEqual(told("output.beat=20e-9")[1], [])
+
+    def test_check_warns_of_hats(self):
+        text = ("\nwarning: With transfer.shape = \"linear\" runs stop where voids collapse: hats let forces jump where particles "
+                "cross cells. Set transfer.shape to \"gimp\" or \"cubic\".\n")
+        for shape in ("linear", "gimp", "quadratic", "cubic"):
+            output = self.succeed("check", "porous.toml", "--set", f"transfer.shape='{shape}'").output
+            self.assertEqual(output.count(text), int(shape == "linear"), output)
 
     def test_check_warns_of_conduction(self):
         conductivity = "material.0.conductivity=237"

@@ -133,10 +133,10 @@ class Mutator {
                                                               "0.5",
                                                               "1e-6",
                                                               "3"};
-  static constexpr std::array<std::string_view, 18> words = {
-      "wall",   "free",       "symmetry",  "solid",      "random_voids", "none",
-      "linear", "gimp",       "quadratic", "cubic",      "flip",         "apic",
-      "pic",    "lagrangian", "paper",     "conserving", "disc",         "polygon"};
+  static constexpr std::array<std::string_view, 23> words = {
+      "wall",      "free",     "symmetry",   "solid", "random_voids", "none",  "linear", "gimp",
+      "quadratic", "cubic",    "flip",       "apic",  "pic",          "aflip", "iapic",  "polypic",
+      "polyflip",  "ipolypic", "lagrangian", "paper", "conserving",   "disc",  "polygon"};
 
   static std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;

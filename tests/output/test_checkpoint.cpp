@@ -74,6 +74,7 @@ void round_trip(ParticleOptions options) {
       EXPECT_EQ(scene, sample_scene);
       EXPECT_EQ(state, sample_state);
       EXPECT_EQ(particles.options.affine, options.affine);
+      EXPECT_EQ(particles.options.quadratic, options.quadratic);
       EXPECT_EQ(particles.options.back_stress, options.back_stress);
       EXPECT_EQ(particles.options.conducted_heat, options.conducted_heat);
       EXPECT_EQ(particles.options.failed, options.failed);
@@ -89,14 +90,16 @@ void round_trip(ParticleOptions options) {
 }
 
 TEST(Checkpoint, AnyRanksToAnyRanksPlaneStrain) {
-  round_trip<2>({true, false});
+  round_trip<2>({.affine = true});
+  round_trip<2>({.affine = true, .quadratic = true});
 }
 TEST(Checkpoint, AnyRanksToAnyRanksThreeDimensions) {
-  round_trip<3>({false, true});
+  round_trip<3>({.affine = false, .back_stress = true});
+  round_trip<3>({.affine = true, .quadratic = true});
 }
 
 TEST(Checkpoint, AnyRanksToAnyRanksOptionalColumns) {
-  round_trip<2>({false, false, true, true, true});
+  round_trip<2>({.affine = false, .conducted_heat = true, .failed = true, .facing = true});
 }
 
 TEST(Checkpoint, NoParticlesAtAll) {

@@ -23,7 +23,7 @@ const std::string plane_header =
     "conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],escaped_momentum_x [kg/s],"
     "escaped_momentum_y [kg/s],wall_impulse_x [kg/s],wall_impulse_y [kg/s],body_impulse_x [kg/s],"
     "body_impulse_y [kg/s],total_momentum_x [kg/s],total_momentum_y [kg/s],wall_force [N/m],"
-    "guards [-]";
+    "numerical_share [-],guards [-]";
 
 HistoryRow sample_row(std::int64_t step) {
   HistoryRow row;
@@ -55,13 +55,13 @@ TEST(History, HeaderAndNumbers) {
   const std::string solid = history_header(3, false);
   EXPECT_TRUE(contains(solid, "kinetic [J],")) << solid;
   EXPECT_TRUE(contains(solid, ",momentum_z [kg m/s],escaped_momentum_x [kg m/s],")) << solid;
-  EXPECT_TRUE(contains(solid, ",total_momentum_z [kg m/s],wall_force [N],guards [-]")) << solid;
+  EXPECT_TRUE(contains(solid, ",total_momentum_z [kg m/s],wall_force [N],numerical_share [-],guards [-]")) << solid;
   EXPECT_EQ(history_line(sample_row(3), 2),
             "1.0000000000000001e-09,3,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,"
-            "1,-2,0.5,0.25,-0,3,5,7,-3.5,-11.75,1000000000,9");
+            "1,-2,0.5,0.25,-0,3,5,7,-3.5,-11.75,1000000000,0,9");
   EXPECT_EQ(history_line(sample_row(0), 3),
             "0,0,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,1,-2,4,"
-            "0.5,0.25,0.125,-0,3,6,5,7,11,-3.5,-11.75,-12.875,1000000000,9");
+            "0.5,0.25,0.125,-0,3,6,5,7,11,-3.5,-11.75,-12.875,1000000000,0,9");
 }
 
 TEST(History, GrainsAddColumns) {

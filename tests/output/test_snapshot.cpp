@@ -25,7 +25,8 @@ const std::string scene_text = "title = \"snapshot\"\n";
 /// Row `row` of the whole sample has numbers that depend on `row` only.
 template <int Dim>
 Particles<Dim> physical_particles(std::int64_t first, std::int64_t count) {
-  Particles<Dim> p = test::made_up_particles<Dim>(first, count, {true, false});
+  Particles<Dim> p =
+      test::made_up_particles<Dim>(first, count, {.affine = true, .quadratic = true});
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto row = static_cast<double>(first + static_cast<std::int64_t>(i));
     p.density[i] = 2785.0 + 10.0 * row;
@@ -39,6 +40,9 @@ Particles<Dim> physical_particles(std::int64_t first, std::int64_t count) {
       p.deviator[c][i] = 1e5 * static_cast<double>(c + 1) + row;
     }
     for (std::size_t c = 0; c < p.affine.size(); ++c) p.affine[c][i] = static_cast<double>(c) + row;
+    for (std::size_t c = 0; c < p.quadratic.size(); ++c) {
+      p.quadratic[c][i] = 0.5 * static_cast<double>(c) - row;
+    }
   }
   return p;
 }
@@ -94,13 +98,14 @@ void check_columns(ShapeFunction shape, double inertia) {
   ASSERT_EQ(stress.size(), static_cast<std::size_t>(total * symmetric_size<Dim>));
   for (std::size_t i = 0; i < p.size(); ++i) {
     double velocity = 0.0;
-    double gradient = 0.0;
+    double gradient = 0.0, second = 0.0;
     for (std::size_t a = 0; a < Dim; ++a) {
       EXPECT_EQ(position[i * Dim + a], p.position[a][i] - 0.25);
       velocity += p.velocity[a][i] * p.velocity[a][i];
     }
     for (const auto& c : p.affine) gradient += c[i] * c[i];
-    EXPECT_DOUBLE_EQ(kinetic[i], 0.5 * velocity + 0.5 * inertia * gradient);
+    for (const auto& c : p.quadratic) second += c[i] * c[i];
+    EXPECT_DOUBLE_EQ(kinetic[i], 0.5 * velocity + 0.5 * inertia * gradient + 0.5 * second);
     for (std::size_t c = 0; c < symmetric_size<Dim>; ++c) {
       const double expected = p.deviator[c][i] - (c < 3 ? p.pressure[i] : 0.0);
       EXPECT_EQ(stress[i * symmetric_size<Dim> + c], expected);

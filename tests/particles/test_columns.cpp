@@ -12,7 +12,7 @@ namespace {
 using test::first_wrong_number;
 using test::numbered_particles;
 
-constexpr ParticleOptions everything{true, true, true, true, true};
+constexpr ParticleOptions everything{true, true, true, true, true, true};
 
 template <int Dim>
 std::vector<std::string> column_names(ParticleOptions options) {
@@ -55,6 +55,12 @@ TEST(Columns, HaveTheOrderOfTheCheckpointFormat) {
                                                                    "affine1",
                                                                    "affine2",
                                                                    "affine3",
+                                                                   "quadratic0",
+                                                                   "quadratic1",
+                                                                   "quadratic2",
+                                                                   "quadratic3",
+                                                                   "quadratic4",
+                                                                   "quadratic5",
                                                                    "mass",
                                                                    "density",
                                                                    "pressure",
@@ -74,19 +80,20 @@ TEST(Columns, HaveTheOrderOfTheCheckpointFormat) {
                                                                    "failed",
                                                                    "facing0",
                                                                    "facing1"}));
-  EXPECT_EQ(column_names<3>(everything).size(), 3u + 3u + 3u + 9u + 7u + 6u + 6u + 2u + 3u);
+  EXPECT_EQ(column_names<3>(everything).size(), 3u + 3u + 3u + 9u + 18u + 7u + 6u + 6u + 2u + 3u);
 }
 
 TEST(Columns, OfUnusedOptionsAreLeftOut) {
-  for (const std::string& name : column_names<3>({false, false, false, false})) {
-    for (const char* unused : {"affine", "back_stress", "conducted_heat", "failed"}) {
+  for (const std::string& name : column_names<3>({false, false, false, false, false})) {
+    for (const char* unused : {"affine", "quadratic", "back_stress", "conducted_heat", "failed"}) {
       EXPECT_EQ(name.find(unused), std::string::npos);
     }
   }
   Particles<2> particles;
-  particles.options = {false, false};
+  particles.options = {false, false, false};
   resize(particles, 5);
   EXPECT_EQ(particles.affine[3].size(), 0u);
+  EXPECT_EQ(particles.quadratic[5].size(), 0u);
   EXPECT_EQ(particles.back_stress[0].size(), 0u);
   EXPECT_EQ(particles.deviator[3].size(), 5u);
 }
@@ -131,10 +138,12 @@ void expect_packing_keeps_every_bit(ParticleOptions options, std::size_t bytes) 
 }
 
 TEST(Columns, PackingKeepsEveryBit) {
-  expect_packing_keeps_every_bit<2>({false, false}, 16 + 8 * (2 + 2 + 7 + 4));
-  expect_packing_keeps_every_bit<2>({true, false}, 16 + 8 * (2 + 2 + 4 + 7 + 4));
-  expect_packing_keeps_every_bit<3>({true, true}, 16 + 8 * (3 + 3 + 9 + 7 + 6 + 6));
-  expect_packing_keeps_every_bit<2>({false, false, true, true}, 20 + 8 * (2 + 2 + 7 + 4 + 1));
+  expect_packing_keeps_every_bit<2>({false, false, false}, 16 + 8 * (2 + 2 + 7 + 4));
+  expect_packing_keeps_every_bit<2>({true, false, false}, 16 + 8 * (2 + 2 + 4 + 7 + 4));
+  expect_packing_keeps_every_bit<2>({true, true, false}, 16 + 8 * (2 + 2 + 4 + 6 + 7 + 4));
+  expect_packing_keeps_every_bit<3>({true, true, true}, 16 + 8 * (3 + 3 + 9 + 18 + 7 + 6 + 6));
+  expect_packing_keeps_every_bit<2>({false, false, false, true, true},
+                                    20 + 8 * (2 + 2 + 7 + 4 + 1));
 }
 
 }  // namespace

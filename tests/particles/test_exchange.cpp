@@ -58,9 +58,10 @@ void scatter_at_random(ParticleOptions options) {
 }
 
 TEST(Redistribute, KeepsEveryParticleOnceBitForBit) {
-  scatter_at_random<2>({true, true});
-  scatter_at_random<3>({true, false});
-  scatter_at_random<3>({false, true});
+  scatter_at_random<2>({true, true, true});
+  scatter_at_random<3>({true, true, false});
+  scatter_at_random<3>({true, false, false});
+  scatter_at_random<3>({false, false, true});
 }
 
 TEST(Redistribute, BringsEverythingToOneRankAndBack) {
@@ -70,7 +71,7 @@ TEST(Redistribute, BringsEverythingToOneRankAndBack) {
     all.push_back(id);
     if (id % ranks == me) mine.push_back(id);
   }
-  Particles<2> particles = numbered_particles<2>({true, false}, mine);
+  Particles<2> particles = numbered_particles<2>({true, true, false}, mine);
   redistribute(std::vector<int>(particles.size(), last), particles, world);
   expect_exactly(me == last ? all : std::vector<std::int64_t>{}, particles);
   std::vector<int> home;
@@ -111,16 +112,16 @@ void walk_at_random(ParticleOptions options) {
 }
 
 TEST(Neighbours, KeepEveryParticleOnceBitForBit) {
-  walk_at_random<2>({true, false});
-  walk_at_random<2>({false, false});
-  walk_at_random<3>({true, true});
+  walk_at_random<2>({true, true, false});
+  walk_at_random<2>({false, false, false});
+  walk_at_random<3>({true, true, true});
 }
 
 TEST(Neighbours, MayExchangeAllTheyHave) {
   // Every rank sends all it has to one side, so some receive nothing and some lose everything.
   const int ranks = size(world), me = rank(world);
   const std::vector<std::int64_t> ids = {10 * me, 10 * me + 1, 10 * me + 2};
-  Particles<3> particles = numbered_particles<3>({true, true}, ids);
+  Particles<3> particles = numbered_particles<3>({true, true, true}, ids);
   if (me + 1 < ranks) {
     exchange_with_neighbours({}, {0, 1, 2}, {}, particles, world);
   } else {
@@ -133,7 +134,7 @@ TEST(Neighbours, MayExchangeAllTheyHave) {
 }
 
 TEST(Neighbours, HolesAreFilledFromTheEnd) {
-  Particles<2> particles = numbered_particles<2>({true, false}, {0, 1, 2, 3, 4, 5, 6});
+  Particles<2> particles = numbered_particles<2>({true, true, false}, {0, 1, 2, 3, 4, 5, 6});
   exchange_with_neighbours({}, {}, {1, 4, 6}, particles, MPI_COMM_SELF);
   EXPECT_EQ(particles.id, (std::vector<std::int64_t>{0, 5, 2, 3}));
   EXPECT_EQ(first_wrong_number(particles), "");

@@ -89,8 +89,7 @@ inline double momentum(Int128 quanta, const NodeLedger& ledger) {
 
 /// All sums of a ledger over the ranks of the communicator. Collective.
 inline std::vector<Int128> totals(const NodeLedger& ledger, MPI_Comm communicator) {
-  std::vector<Int128> values = {ledger.filter_heat, ledger.wall_heat, ledger.wall_work,
-                                ledger.body_work};
+  std::vector<Int128> values = {ledger.wall_heat, ledger.wall_work, ledger.body_work};
   values.insert(values.end(), ledger.body_impulse.begin(), ledger.body_impulse.end());
   values.insert(values.end(), ledger.wall_impulse.begin(), ledger.wall_impulse.end());
   sum(values, communicator);

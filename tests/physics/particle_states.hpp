@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -18,12 +19,12 @@ template <int Dim>
 struct Points {
   Particles<Dim> particles;
   StepData<Dim> step;
-  bool averaging = false;
 
-  Points(std::size_t count, bool kinematic, bool averages) : averaging(averages) {
-    particles.options = {false, kinematic};
+  Points(std::size_t count, bool kinematic) {
+    particles.options.affine = false;
+    particles.options.back_stress = kinematic;
     resize(particles, count);
-    resize_ordered(count, averaging, step);
+    resize_ordered(count, step);
     for (std::size_t p = 0; p < count; ++p) {
       particles.id[p] = static_cast<std::int64_t>(p);
       particles.mass[p] = 1.0;
@@ -34,18 +35,17 @@ struct Points {
 /// Points at rest in the initial state of one material.
 template <int Dim>
 Points<Dim> at_rest(const MaterialParameters& material, std::size_t count = 1) {
-  Points<Dim> points(count, material.kinematic_share > 0.0, false);
+  Points<Dim> points(count, material.kinematic_share > 0.0);
   for (double& x : points.particles.density) x = material.density;
   return points;
 }
 
 /// Settings with some viscosity, a cell of 10 um and a Courant number of 0.35.
 template <int Dim>
-StressSettings<Dim> settings_of(Thermal thermal, bool averaging = false) {
+StressSettings<Dim> settings_of(Thermal thermal) {
   StressSettings<Dim> settings;
   settings.thermal = thermal;
-  settings.averaging = averaging;
-  settings.viscosity = {0.6, 2.25};
+  settings.viscosity = {0.6, 2.25, false};
   settings.cell = 1.0e-5;
   settings.cfl = 0.35;
   settings.inverse_energy_quantum = 0x1p40;
@@ -67,11 +67,12 @@ void set_motion(const std::array<double, Dim * Dim>& end,
 }
 
 /// Random states: compressed or stretched, hot, stressed beyond yield or below (a fluid not at
-/// all), deforming by up to `strain` in a step of length dt.
+/// all), deforming by up to `strain` in a step of length dt; the viscosities act in part, fully or
+/// not at all.
 template <int Dim>
 Points<Dim> random_points(std::size_t count, const std::vector<Material>& materials, bool kinematic,
-                          bool averaging, double strain, double dt, reference::Random& random) {
-  Points<Dim> points(count, kinematic, averaging);
+                          double strain, double dt, reference::Random& random) {
+  Points<Dim> points(count, kinematic);
   Particles<Dim>& p = points.particles;
   const auto centred = [&] { return 2.0 * random.uniform() - 1.0; };
   for (std::size_t i = 0; i < count; ++i) {
@@ -99,10 +100,8 @@ Points<Dim> random_points(std::size_t count, const std::vector<Material>& materi
     }
     set_motion<Dim>(end, middle, i, points.step);
     points.step.heat[i] = 500.0 * random.uniform();
-    if (averaging) {
-      points.step.dilatation_end[i] = strain / dt * centred();
-      points.step.dilatation_mid[i] = strain / dt * centred();
-    }
+    points.step.viscous_linear[i] = std::clamp(1.6 * random.uniform() - 0.3, 0.0, 1.0);
+    points.step.viscous_quadratic[i] = std::clamp(1.6 * random.uniform() - 0.3, 0.0, 1.0);
   }
   return points;
 }

@@ -105,7 +105,7 @@ void mirrored_bits() {
   m.kinematic_share = 0.3;
   const std::vector<Material> materials = {make_material(m)};
   reference::Random random{3};
-  Points<Dim> points = random_points<Dim>(37, materials, true, false, 0.02, dt, random);
+  Points<Dim> points = random_points<Dim>(37, materials, true, 0.02, dt, random);
   Points<Dim> image = points;
   // The components with one x: xy, and zx in space.
   const auto flip = [](std::vector<double>& column) {

@@ -158,7 +158,7 @@ TEST(Spall, OpenedParticleHasTheTemperatureOfItsSolid) {
 TEST(Spall, OtherMaterialsOfTheSceneHold) {
   const std::vector<Material> materials = {make_material(spalling(1e9)),
                                            make_material(reference::aluminium())};
-  Points<2> points(2, false, false);
+  Points<2> points(2, false);
   points.particles.options.failed = true;
   resize(points.particles, 2);
   points.particles.density = {2700.0, 2700.0};

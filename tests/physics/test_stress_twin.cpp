@@ -85,11 +85,8 @@ reference::PointMotion motion_of(const Points<Dim>& points, const Vector<Dim>& g
     motion.rate(2, 0) = motion.rate(0, 2) = step.rate[5][i];
   }
   motion.heat = step.heat[i];
-  motion.averaging = points.averaging;
-  if (points.averaging) {
-    motion.dilatation_end = step.dilatation_end[i];
-    motion.dilatation_mid = step.dilatation_mid[i];
-  }
+  motion.linear = step.viscous_linear[i];
+  motion.quadratic = step.viscous_quadratic[i];
   return motion;
 }
 
@@ -159,16 +156,16 @@ double twin_error(const MaterialParameters& m, double strain_error) {
 }
 
 template <int Dim>
-void compare_with_twin(Thermal thermal, bool kinematic, bool averaging, PlasticHeat heat,
-                       double spall, double strain, double strain_error) {
+void compare_with_twin(Thermal thermal, bool kinematic, PlasticHeat heat, double spall,
+                       double strain, double strain_error) {
   const std::vector<MaterialParameters> all = parameters(heat, spall);
   const std::vector<Material> materials = make_materials(all);
-  StressSettings<Dim> settings = settings_of<Dim>(thermal, averaging);
+  StressSettings<Dim> settings = settings_of<Dim>(thermal);
   settings.grid_velocity[Dim - 1] = 700.0;
-  settings.viscosity = {0.5, 1.7};
+  settings.viscosity = {0.5, 1.7, true};
   reference::Random random{7};
   // Without the column the kinematic material may not take part.
-  Points<Dim> points = random_points<Dim>(300, materials, kinematic, averaging, strain, dt, random);
+  Points<Dim> points = random_points<Dim>(300, materials, kinematic, strain, dt, random);
   for (std::int32_t& m : points.particles.material) m = !kinematic && m == 1 ? 0 : m;
   if (spall > 0.0) fail_some(points.particles);
   // Only linear hardening has a back stress.
@@ -224,12 +221,9 @@ template <int Dim>
 void compare_all_modes(double strain, double strain_error) {
   for (const Thermal thermal : {Thermal::paper, Thermal::conserving}) {
     for (const bool kinematic : {false, true}) {
-      for (const bool averaging : {false, true}) {
-        for (const PlasticHeat heat : {PlasticHeat::work, PlasticHeat::dissipation}) {
-          for (const double spall : {0.0, 1e9}) {
-            compare_with_twin<Dim>(thermal, kinematic, averaging, heat, spall, strain,
-                                   strain_error);
-          }
+      for (const PlasticHeat heat : {PlasticHeat::work, PlasticHeat::dissipation}) {
+        for (const double spall : {0.0, 1e9}) {
+          compare_with_twin<Dim>(thermal, kinematic, heat, spall, strain, strain_error);
         }
       }
     }
@@ -256,19 +250,18 @@ TEST(StressTwin, LargeStepsInSpace) {
 
 /// Every particle comes out with the same bits alone and among others, in any order.
 template <int Dim>
-void storage_does_not_matter(std::size_t count, bool kinematic, bool averaging, Thermal thermal) {
+void storage_does_not_matter(std::size_t count, bool kinematic, Thermal thermal) {
   const std::vector<Material> materials = make_materials(parameters(PlasticHeat::work));
-  const StressSettings<Dim> settings = settings_of<Dim>(thermal, averaging);
+  const StressSettings<Dim> settings = settings_of<Dim>(thermal);
   reference::Random random{count};
-  const Points<Dim> start =
-      random_points<Dim>(count, materials, kinematic, averaging, 0.02, dt, random);
+  const Points<Dim> start = random_points<Dim>(count, materials, kinematic, 0.02, dt, random);
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
   for (std::size_t k = count; k > 1; --k) {
     std::swap(order[k - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(k)))]);
   }
   const auto picked = [&](const std::vector<std::uint32_t>& indices) {
-    Points<Dim> points(indices.size(), kinematic, averaging);
+    Points<Dim> points(indices.size(), kinematic);
     points.particles = start.particles;
     reorder(indices, points.particles);
     const auto pick = [&](const std::vector<double>& from, std::vector<double>& to) {
@@ -277,8 +270,8 @@ void storage_does_not_matter(std::size_t count, bool kinematic, bool averaging, 
     for (int k = 0; k < Dim * Dim; ++k) pick(start.step.gradient[k], points.step.gradient[k]);
     for (int k = 0; k < rate_size<Dim>; ++k) pick(start.step.rate[k], points.step.rate[k]);
     pick(start.step.heat, points.step.heat);
-    pick(start.step.dilatation_end, points.step.dilatation_end);
-    pick(start.step.dilatation_mid, points.step.dilatation_mid);
+    pick(start.step.viscous_linear, points.step.viscous_linear);
+    pick(start.step.viscous_quadratic, points.step.viscous_quadratic);
     return points;
   };
   Points<Dim> shuffled = picked(order);
@@ -301,28 +294,30 @@ void storage_does_not_matter(std::size_t count, bool kinematic, bool averaging, 
 TEST(StressStorage, AnyNumberOfParticlesInAnyOrder) {
   for (std::size_t count = 1; count <= 40; ++count) {
     const Thermal thermal = count % 2 == 0 ? Thermal::paper : Thermal::conserving;
-    storage_does_not_matter<2>(count, count % 4 < 2, count % 8 < 4, thermal);
-    storage_does_not_matter<3>(count, count % 4 < 2, count % 8 < 4, thermal);
+    storage_does_not_matter<2>(count, count % 4 < 2, thermal);
+    storage_does_not_matter<3>(count, count % 4 < 2, thermal);
   }
 }
 
 // More than one block of the inner loop, and one material only: full vectors and remainders.
 TEST(StressStorage, SeveralBlocks) {
-  storage_does_not_matter<2>(700, true, true, Thermal::conserving);
-  storage_does_not_matter<3>(300, false, false, Thermal::conserving);
+  storage_does_not_matter<2>(700, true, Thermal::conserving);
+  storage_does_not_matter<3>(300, false, Thermal::conserving);
   const std::vector<Material> materials = {make_material(reference::aluminium())};
   const StressSettings<2> settings = settings_of<2>(Thermal::conserving);
   reference::Random random{99};
-  const Points<2> start = random_points<2>(523, materials, false, false, 0.02, dt, random);
+  const Points<2> start = random_points<2>(523, materials, false, 0.02, dt, random);
   Points<2> together = start;
   update<2>(materials, settings, dt, together);
   for (std::size_t i = 0; i < 523; ++i) {
-    Points<2> one(1, false, false);
+    Points<2> one(1, false);
     one.particles = start.particles;
     reorder({static_cast<std::uint32_t>(i)}, one.particles);
     for (int k = 0; k < 4; ++k) one.step.gradient[k][0] = start.step.gradient[k][i];
     for (int k = 0; k < 3; ++k) one.step.rate[k][0] = start.step.rate[k][i];
     one.step.heat[0] = start.step.heat[i];
+    one.step.viscous_linear[0] = start.step.viscous_linear[i];
+    one.step.viscous_quadratic[0] = start.step.viscous_quadratic[i];
     update<2>(materials, settings, dt, one);
     EXPECT_EQ(bits_of<2>(one.particles, 0), bits_of<2>(together.particles, i)) << i;
   }

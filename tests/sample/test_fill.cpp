@@ -323,7 +323,7 @@ TEST(Fill, BallsLeaveRoundHolesIn3D) {
   EXPECT_NEAR(report.particle_void_fraction, 0.3, 4.0 * 20.0 * std::sqrt(72.0) / 512000.0);
 }
 
-TEST(Fill, WithoutApicTheAffineColumnsStayEmpty) {
+TEST(Fill, ColumnsOfModesNotInUseStayEmpty) {
   Scene scene = small_scene();
   scene.sample.kind = SampleKind::solid;
   scene.sample.height = 1.0;
@@ -333,6 +333,7 @@ TEST(Fill, WithoutApicTheAffineColumnsStayEmpty) {
   fill(scene, {0, lattice_layers(scene)}, MPI_COMM_SELF, particles, report);
   EXPECT_EQ(particles.size(), 40U);
   EXPECT_TRUE(particles.affine[0].empty());
+  EXPECT_TRUE(particles.quadratic[0].empty());
 }
 
 }  // namespace

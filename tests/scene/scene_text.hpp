@@ -130,16 +130,16 @@ acceleration = [0, -9.81]
 [transfer]
 shape = "quadratic"
 velocity = "flip"
-damping = 1e5
-averaging = 0.25
+damping = 0.3
 [viscosity]
+limited = false
 linear = 0.4
 quadratic = 1.5
 [conduction]
 on = true
 [time]
 end = 1e-7
-cfl = 0.5
+cfl = 0.3
 max_steps = 1000000000000
 [output]
 beat = 1e-9

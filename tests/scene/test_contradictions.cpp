@@ -122,32 +122,67 @@ TEST(Contradictions, Bodies) {
             "s.toml:22:1: void.0.velocity: unknown key, allowed shape, center, radius");
 }
 
-TEST(Contradictions, DampingBelongsToFlip) {
-  EXPECT_EQ(problems(small_scene(), {"transfer.velocity=apic", "transfer.damping=1e5"}),
-            "--set transfer.damping=1e5: transfer.damping: found 100000 1/s, allowed 0 unless "
-            "transfer.velocity = \"flip\"");
-  EXPECT_EQ(problems(small_scene(), {"transfer.damping=1e5", "transfer.velocity=flip"}), "");
+TEST(Contradictions, DampingOfWhatIsNotKept) {
+  for (const std::string name : {"pic", "apic", "polypic"}) {
+    const std::string velocity = "transfer.velocity=" + name;
+    EXPECT_EQ(problems(small_scene(), {velocity, "transfer.damping=0.1"}),
+              "--set transfer.damping=0.1: transfer.damping: found 0.1, allowed 0 with "
+              "transfer.velocity = \"" +
+                  name + "\", which keeps nothing that could be damped");
+    EXPECT_EQ(problems(small_scene(), {velocity, "transfer.damping=0"}), "");
+  }
+  for (const std::string name : {"flip", "aflip", "iapic", "polyflip", "ipolypic"}) {
+    EXPECT_EQ(problems(small_scene(), {"transfer.velocity=" + name, "transfer.damping=10"}), "");
+  }
+}
+
+TEST(Contradictions, LimitedViscosityNeedsCubicSplines) {
+  for (const std::string shape : {"linear", "gimp", "quadratic"}) {
+    EXPECT_EQ(problems(small_scene(), {"transfer.shape=" + shape, "viscosity.limited=true"}),
+              "--set viscosity.limited=true: viscosity.limited: found true, allowed with "
+              "transfer.shape = \"cubic\": a particle of the others sees no three jumps in a row");
+    EXPECT_EQ(problems(small_scene(), {"transfer.shape=" + shape, "viscosity.limited=false"}), "");
+  }
+  EXPECT_EQ(problems(small_scene(), {"viscosity.limited=true"}), "");
+}
+
+TEST(Contradictions, LargestStepOfAScheme) {
+  const auto refused = [](const std::string& name) {
+    return "--set time.cfl=1: time.cfl: found 1, allowed up to 0.9 with transfer.velocity = \"" +
+           name + "\"";
+  };
+  for (const std::string name : {"pic", "flip"}) {
+    EXPECT_EQ(problems(small_scene(), {"transfer.velocity=" + name, "time.cfl=1"}), refused(name));
+    EXPECT_EQ(problems(small_scene(), {"transfer.velocity=" + name, "time.cfl=0.9"}), "");
+  }
+  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "time.cfl=1"}), refused("flip"));
+  for (const std::string name : {"apic", "aflip", "iapic", "polypic", "polyflip", "ipolypic"}) {
+    EXPECT_EQ(problems(small_scene(), {"transfer.velocity=" + name, "time.cfl=1.5"}), "");
+  }
 }
 
 TEST(Contradictions, SchemesThatCannotWork) {
   EXPECT_EQ(problems(small_scene(), {"transfer.shape=linear", "transfer.velocity=apic"}),
-            "--set transfer.velocity=apic: transfer.velocity: found a transfer that needs "
-            "B-splines, allowed \"flip\" with transfer.shape = \"linear\"");
+            "--set transfer.velocity=apic: transfer.velocity: found \"apic\", which "
+            "transfer.shape = \"linear\" cannot carry, allowed \"flip\" with it");
   EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage"}), "");
   EXPECT_EQ(problems(small_scene(), {"transfer.shape=gimp", "transfer.velocity=pic"}),
-            "--set transfer.velocity=pic: transfer.velocity: found a transfer that needs "
-            "B-splines, allowed \"flip\" with transfer.shape = \"gimp\"");
-  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "transfer.averaging=0.6"}),
-            "--set transfer.averaging=0.6: transfer.averaging: found 0.6, allowed up to 0.5 with "
-            "transfer.shape = \"linear\" or \"gimp\": more is unstable when material crosses "
-            "cells");
+            "--set transfer.velocity=pic: transfer.velocity: found \"pic\", which "
+            "transfer.shape = \"gimp\" cannot carry, allowed \"flip\" with it");
+  for (const std::string name : {"polypic", "polyflip", "ipolypic"}) {
+    EXPECT_EQ(problems(small_scene(), {"transfer.shape=quadratic", "transfer.velocity=" + name}),
+              "--set transfer.velocity=" + name + ": transfer.velocity: found \"" + name +
+                  "\", which transfer.shape = \"quadratic\" cannot carry, allowed \"pic\", "
+                  "\"flip\", \"apic\", \"aflip\" or \"iapic\" with it");
+  }
+  for (const std::string name : {"pic", "flip", "apic", "aflip", "iapic"}) {
+    EXPECT_EQ(problems(small_scene(), {"transfer.shape=quadratic", "transfer.velocity=" + name}),
+              "");
+  }
   EXPECT_EQ(
       problems(small_scene(), {"transfer.preset=lineage", "conduction.on=true"}),
       "--set conduction.on=true: conduction.on: found true, allowed with transfer.shape = "
       "\"quadratic\" or \"cubic\": the slopes of the others jump where particles cross cells");
-  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "time.cfl=1"}),
-            "--set time.cfl=1: time.cfl: found 1, allowed up to 0.9 unless transfer.velocity = "
-            "\"apic\"");
 }
 
 TEST(Contradictions, Beat) {

@@ -31,6 +31,25 @@ TEST(Messages, UnknownKeyFarFromAll) {
             "s.toml:19:1: loading.speed_of_light: unknown key, allowed velocity, frame");
 }
 
+TEST(Messages, KeysOfFormerSchemes) {
+  for (const std::string key : {"averaging", "order", "update"}) {
+    EXPECT_EQ(
+        problems(small_scene("[transfer]\n" + key + " = 1\n")),
+        "s.toml:19:1: transfer." + key + ": unknown key, allowed preset, shape, velocity, damping");
+  }
+}
+
+TEST(Messages, NamesOfTransfers) {
+  const std::string names =
+      "\"pic\", \"flip\", \"apic\", \"aflip\", \"iapic\", \"polypic\", \"polyflip\" or "
+      "\"ipolypic\"";
+  EXPECT_EQ(problems(small_scene("[transfer]\nvelocity = \"fmpm\"\n")),
+            "s.toml:19:12: transfer.velocity: found \"fmpm\", allowed " + names);
+  EXPECT_EQ(problems(small_scene("[transfer]\nvelocity = \"polyflop\"\n")),
+            "s.toml:19:12: transfer.velocity: found \"polyflop\", allowed " + names +
+                ", did you mean \"polyflip\"?");
+}
+
 TEST(Messages, UnknownTable) {
   EXPECT_EQ(
       problems(small_scene("[trasnfer]\nshape = \"cubic\"\n")),
@@ -65,8 +84,10 @@ TEST(Messages, OutOfRange) {
             "s.toml:19:10: viscosity.linear: found nan, allowed a number >= 0");
   EXPECT_EQ(problems(small_scene("[viscosity]\nquadratic = inf\n")),
             "s.toml:19:13: viscosity.quadratic: found inf, allowed a number >= 0");
-  EXPECT_EQ(problems(small_scene("[transfer]\naveraging = 1.5\n")),
-            "s.toml:19:13: transfer.averaging: found 1.5, allowed a number from 0 to 1");
+  EXPECT_EQ(problems(small_scene("[transfer]\ndamping = 10.5\n")),
+            "s.toml:19:11: transfer.damping: found 10.5, allowed a number from 0 to 10");
+  EXPECT_EQ(problems(small_scene("[transfer]\ndamping = -0.1\n")),
+            "s.toml:19:11: transfer.damping: found -0.1, allowed a number from 0 to 10");
   EXPECT_EQ(problems(small_scene("[[body]]\nshape = \"box\"\nlow = [0, 0]\nhigh = [1, 1]\n"
                                  "grain = 2147483648\n")),
             "s.toml:22:9: body.0.grain: found 2147483648, allowed a whole number from 0 to "

@@ -36,7 +36,7 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(scene.sample.height, 2e-4);
   EXPECT_EQ(scene.sample.particles_per_cell, 2);
   EXPECT_EQ(scene.materials[0].T0, 300.0);
-  EXPECT_EQ(scene.time.cfl, 0.5);
+  EXPECT_EQ(scene.time.cfl, 1.0);
   EXPECT_EQ(scene.transfer, (Transfer{.half_length = 0.25}));
   EXPECT_EQ(scene.viscosity, Viscosity{});
   EXPECT_FALSE(scene.conduction.on);
@@ -50,6 +50,49 @@ TEST(Scenes, Defaults) {
   EXPECT_EQ(parse(small_scene(), {"output.snapshot=2e-8"}).profile.every, 2e-8);
   EXPECT_EQ(parse(small_scene(), {"output.snapshot=2e-8", "profile.every=0"}).profile.every, 0.0);
   EXPECT_EQ(scene.checkpoint, Checkpoint{});
+}
+
+// Each shape has its own best scheme, and each scheme its own damping and step.
+TEST(Scenes, DefaultsOfTheScheme) {
+  const auto expect = [](const std::vector<std::string>& overrides, VelocityTransfer velocity,
+                         double damping, double cfl) {
+    const Scene scene = parse(small_scene(), overrides);
+    EXPECT_EQ(scene.transfer.velocity, velocity) << overrides.front();
+    EXPECT_EQ(scene.transfer.damping, damping) << overrides.front();
+    EXPECT_EQ(scene.time.cfl, cfl) << overrides.front();
+    expect_round_trip(scene);
+  };
+  using V = VelocityTransfer;
+  expect({"transfer.shape=cubic"}, V::polyflip, 0.01, 1.0);
+  expect({"transfer.shape=quadratic"}, V::aflip, 0.1, 1.0);
+  expect({"transfer.shape=gimp"}, V::flip, 0.0, 0.4);
+  expect({"transfer.shape=linear"}, V::flip, 0.0, 0.4);
+  expect({"transfer.velocity=pic"}, V::pic, 0.0, 0.5);
+  expect({"transfer.velocity=flip"}, V::flip, 0.0, 0.4);
+  expect({"transfer.velocity=apic"}, V::apic, 0.0, 1.0);
+  expect({"transfer.velocity=aflip"}, V::aflip, 0.1, 1.0);
+  expect({"transfer.velocity=iapic"}, V::iapic, 0.2, 1.0);
+  expect({"transfer.velocity=polypic"}, V::polypic, 0.0, 1.0);
+  expect({"transfer.velocity=polyflip"}, V::polyflip, 0.01, 1.0);
+  expect({"transfer.velocity=ipolypic"}, V::ipolypic, 1.0, 1.0);
+  expect({"transfer.velocity=aflip", "transfer.damping=10", "time.cfl=1.5"}, V::aflip, 10.0, 1.5);
+}
+
+TEST(Scenes, DefaultsOfTheViscosity) {
+  const auto viscosity = [](const std::vector<std::string>& overrides) {
+    return parse(small_scene(), overrides).viscosity;
+  };
+  const Viscosity limited{.linear = 1.0, .quadratic = 5.0, .limited = true};
+  const Viscosity plain{.linear = 0.6, .quadratic = 2.25, .limited = false};
+  EXPECT_EQ(viscosity({}), limited);
+  EXPECT_EQ(viscosity({"transfer.velocity=flip"}), limited);
+  EXPECT_EQ(viscosity({"viscosity.limited=false"}), plain);
+  for (const char* shape :
+       {"transfer.shape=quadratic", "transfer.shape=gimp", "transfer.shape=linear"}) {
+    EXPECT_EQ(viscosity({shape}), plain) << shape;
+  }
+  EXPECT_EQ(viscosity({"viscosity.limited=false", "viscosity.linear=0.3"}),
+            (Viscosity{.linear = 0.3, .quadratic = 2.25, .limited = false}));
 }
 
 TEST(Scenes, EveryKeyOf2D) {
@@ -76,9 +119,10 @@ TEST(Scenes, EveryKeyOf2D) {
   EXPECT_EQ(scene.body_force, (Triple{0.0, -9.81, 0.0}));
   EXPECT_EQ(scene.transfer, (Transfer{.shape = ShapeFunction::quadratic,
                                       .velocity = VelocityTransfer::flip,
-                                      .damping = 1e5,
-                                      .averaging = 0.25,
+                                      .damping = 0.3,
                                       .half_length = 0.5 / 3.0}));
+  EXPECT_EQ(scene.viscosity, (Viscosity{.linear = 0.4, .quadratic = 1.5, .limited = false}));
+  EXPECT_EQ(scene.time.cfl, 0.3);
   EXPECT_EQ(scene.materials[0].spall, 1e9);
   EXPECT_EQ(scene.materials[1].spall, 0.0);
   EXPECT_TRUE(can_fail(scene));
@@ -244,7 +288,7 @@ TEST(Presets, LineageSetsDefaultsThatKeysOverride) {
   const Transfer plain = parse_scene(small_scene(), "s.toml", {"transfer.preset=lineage"}).transfer;
   EXPECT_EQ(plain.shape, ShapeFunction::gimp);
   EXPECT_EQ(plain.velocity, VelocityTransfer::flip);
-  EXPECT_EQ(plain.averaging, 0.0);
+  EXPECT_EQ(plain.damping, 0.0);
   EXPECT_EQ(plain.half_length, 0.25);
   const Scene scene =
       parse_scene(small_scene(), "s.toml", {"transfer.preset=lineage", "transfer.shape=linear"});
@@ -291,8 +335,14 @@ TEST(Keys, ListTheTables) {
     EXPECT_EQ(found.size(), 1u) << table << "." << key;
     return found.empty() ? SceneKey{} : found.front();
   };
-  EXPECT_EQ(find("time", "cfl").standard, "0.5");
+  EXPECT_EQ(find("time", "cfl").standard, "");
   EXPECT_EQ(find("time", "cfl").allowed, "a number > 0 and <= 1.5");
+  EXPECT_EQ(find("transfer", "velocity").standard, "");
+  EXPECT_EQ(find("transfer", "velocity").allowed,
+            "\"pic\", \"flip\", \"apic\", \"aflip\", \"iapic\", \"polypic\", \"polyflip\" or "
+            "\"ipolypic\"");
+  EXPECT_EQ(find("transfer", "damping").allowed, "a number from 0 to 10");
+  EXPECT_EQ(find("viscosity", "limited").standard, "");
   EXPECT_EQ(find("domain", "cell").standard, "required");
   EXPECT_EQ(find("profile", "every").standard, "");
   EXPECT_EQ(find("material.johnson_cook", "melting").allowed, "a number > 0 (K)");

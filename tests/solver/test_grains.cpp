@@ -32,9 +32,11 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(std::vector<std::string>{}, std::vector<std::string>{"contact.friction=0.0"},
                       std::vector<std::string>{"contact.friction=1e30",
                                                "boundary.low={kind='wall', friction=0.4}"},
-                      std::vector<std::string>{"contact.gap=none", "transfer.averaging=0.0"},
+                      std::vector<std::string>{"contact.gap=none", "viscosity.limited=false"},
                       std::vector<std::string>{"contact.normal=regression"},
-                      std::vector<std::string>{"transfer.velocity=flip", "transfer.damping=1e8"},
+                      std::vector<std::string>{"transfer.velocity=flip", "transfer.damping=0.2"},
+                      std::vector<std::string>{"transfer.velocity=apic"},
+                      std::vector<std::string>{"transfer.velocity=aflip"},
                       std::vector<std::string>{"thermal=paper", "transfer.shape=quadratic"}));
 
 /// Two boxes, one on the other, that hit a wall; both are grain 0, or the upper one is grain 1.
@@ -104,8 +106,7 @@ double expect_one_field(const Simulation<2>& one, const Simulation<2>& two) {
 // as nothing but the new nodal velocity moves particles then; in paper mode, as pressure does not
 // know where within a node heat arises.
 TEST(Grains, StickAsOneField) {
-  const std::vector<std::string> scheme = {"transfer.velocity=pic", "transfer.averaging=0.0",
-                                           "thermal=paper"};
+  const std::vector<std::string> scheme = {"transfer.velocity=pic", "thermal=paper"};
   Simulation<2> one = start<2>(scene_of(stacked_text(0, 0.0), scheme), MPI_COMM_SELF);
   Simulation<2> two = start<2>(scene_of(stacked_text(1, 0.0), scheme), MPI_COMM_SELF);
   ASSERT_EQ(one.grain_fields.grains, 0);

@@ -49,10 +49,11 @@ end = 500e-9
 }
 
 template <int Dim>
-Plateau run_plate(const std::string& size, const std::string& height, const std::string& end) {
+Plateau run_plate(const std::string& size, const std::string& height, const std::string& end,
+                  const std::string& cfl) {
   constexpr double velocity = 1100.0;
   Simulation<Dim> sim =
-      start<Dim>(scene_of(plate_text(size, height), {"time.end=" + end}), MPI_COMM_WORLD);
+      start<Dim>(scene_of(plate_text(size, height), {"time.end=" + end, cfl}), MPI_COMM_WORLD);
   advance_to(1000000, 0, sim);
   const auto exact = reference::piston(reference::solid(reference::aluminium()), velocity);
   return plateau(sim, (exact.shocked.front - velocity) * sim.clock.time);
@@ -67,12 +68,14 @@ void expect_exact(const Plateau& found, double velocity) {
 }
 
 TEST(Plate, MatchesTheExactShockAt1100) {
-  expect_exact(run_plate<2>("[0.08e-3, 5.2e-3]", "5e-3", "500e-9"), 1100.0);
+  expect_exact(run_plate<2>("[0.08e-3, 5.2e-3]", "5e-3", "500e-9", "time.cfl=1"), 1100.0);
 }
 
 TEST(Plate, ThreeDimensionsGiveTheSameNumbers) {
-  const Plateau plane = run_plate<2>("[0.08e-3, 1.6e-3]", "1.4e-3", "150e-9");
-  const Plateau space = run_plate<3>("[0.08e-3, 0.08e-3, 1.6e-3]", "1.4e-3", "150e-9");
+  // Longer steps are bounded by what a particle alone bears, and that is less in 3-D.
+  const std::string same = "time.cfl=0.15";
+  const Plateau plane = run_plate<2>("[0.08e-3, 1.6e-3]", "1.4e-3", "150e-9", same);
+  const Plateau space = run_plate<3>("[0.08e-3, 0.08e-3, 1.6e-3]", "1.4e-3", "150e-9", same);
   EXPECT_NEAR(space.stress / plane.stress, 1.0, 1e-9);
   EXPECT_NEAR(space.density / plane.density, 1.0, 1e-9);
   EXPECT_NEAR(space.temperature / plane.temperature, 1.0, 1e-9);

@@ -87,6 +87,9 @@ Profile plain_profile(const Simulation<Dim>& sim) {
     for (const auto& column : particles.affine) {
       if (inertia > 0.0) square += inertia * column[p] * column[p];
     }
+    if (particles.options.quadratic) {
+      for (const auto& column : particles.quadratic) square += column[p] * column[p];
+    }
     return 0.5 * square;
   });
   profile.momentum_flux = plain_mean(sim, volume, [&](std::size_t p, std::size_t j) {
@@ -94,6 +97,10 @@ Profile plain_profile(const Simulation<Dim>& sim) {
     double square = std::pow(particles.velocity[along][p] - profile.velocity[along][j], 2.0);
     for (std::size_t k = 0; k < Dim && inertia > 0.0; ++k) {
       square += inertia * std::pow(particles.affine[along * Dim + k][p], 2.0);
+    }
+    constexpr std::size_t second = second_modes<Dim>;
+    for (std::size_t k = 0; k < second && particles.options.quadratic; ++k) {
+      square += std::pow(particles.quadratic[along * second + k][p], 2.0);
     }
     return particles.pressure[p] - particles.deviator[along][p] + particles.viscous_pressure[p] +
            particles.density[p] * square;

@@ -56,7 +56,8 @@ Comparison compare(const Scene& scene, std::int64_t steps) {
 
 TEST(Sleep, ChangesAPorousSampleByLessThanRoundOffDoes) {
   const std::string tall = "sample.height=1.5e-3", domain = "domain.size=[0.2e-3, 1.6e-3]";
-  for (const char* scheme : {"transfer.velocity=apic", "transfer.velocity=flip"}) {
+  for (const char* scheme :
+       {"transfer.velocity=polyflip", "transfer.velocity=apic", "transfer.velocity=flip"}) {
     const Comparison c = compare(scene_of(porous_text(), {tall, domain, scheme}), 300);
     EXPECT_LT(c.difference, 1e-10) << scheme;
     EXPECT_GT(c.asleep, 0.5) << scheme;
@@ -86,8 +87,10 @@ TEST(Sleep, MovesABlockInFreeFlightExactly) {
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     height[sim.particles.id[p]] = sim.particles.position[1][p];
   }
+  advance_to(39, 0, sim);
+  const auto last = static_cast<std::int64_t>(sim.particles.size());  // some leave at each step
   advance_to(40, 0, sim);
-  EXPECT_EQ(sleeping_particles(sim), static_cast<std::int64_t>(sim.particles.size()));
+  EXPECT_EQ(sleeping_particles(sim), last);
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     EXPECT_EQ(sim.particles.velocity[1][p], -1100.0);
     EXPECT_EQ(sim.particles.pressure[p], 0.0);

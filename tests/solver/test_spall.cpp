@@ -168,9 +168,10 @@ TEST_P(SpallEnergy, Closes) {
 INSTANTIATE_TEST_SUITE_P(
     Schemes, SpallEnergy,
     ::testing::Values(std::vector<std::string>{},
-                      std::vector<std::string>{"transfer.shape=quadratic",
-                                               "transfer.velocity=flip"},
-                      std::vector<std::string>{"transfer.averaging=1.0"},
+                      std::vector<std::string>{"transfer.shape=quadratic", "transfer.velocity=flip",
+                                               "time.cfl=0.5"},
+                      std::vector<std::string>{"transfer.velocity=polyflip",
+                                               "viscosity.limited=true"},
                       std::vector<std::string>{"thermal=paper"},
                       std::vector<std::string>{
                           "material.0.kinematic_share=1.0", "material.0.plastic_heat=dissipation",

@@ -7,6 +7,7 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/scene/read_scene.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/simulation.hpp"
 
@@ -81,14 +82,14 @@ inline Scene scene_of(const std::string& text, const std::vector<std::string>& o
   return parse_scene(text, "test", overrides);
 }
 
-/// A scene whose scheme is APIC without averaging, with the linear viscosity 0.6 where the text has
-/// none, unless the overrides say otherwise; FLIP is then undamped. The default scheme is measured
-/// by plane impacts and porous samples.
+/// A scene whose scheme is APIC, with an artificial viscosity that is not limited where the text
+/// has none, unless the overrides say otherwise; what keeps a residual is then undamped. The
+/// default scheme is measured by plane impacts and porous samples.
 inline Scene plain_scene_of(const std::string& text,
                             const std::vector<std::string>& overrides = {}) {
-  std::string scheme = "\n[transfer]\nvelocity = \"apic\"\naveraging = 0.0\ndamping = 0.0\n";
+  std::string scheme = "\n[transfer]\nvelocity = \"apic\"\ndamping = 0.0\n";
   if (text.find("[viscosity]") == std::string::npos) {
-    scheme += "[viscosity]\nlinear = 0.6\nquadratic = 2.25\n";
+    scheme += "[viscosity]\nlimited = false\nlinear = 0.6\nquadratic = 2.25\n";
   }
   return scene_of(text + scheme, overrides);
 }
@@ -106,6 +107,15 @@ void advance_to(std::int64_t step, std::int64_t rebalance_every, Simulation<Dim>
     migrate(sim);
     if (rebalance_every > 0 && sim.clock.step % rebalance_every == 0) distribute(sim);
   }
+}
+
+/// The overrides of every velocity transfer, on cubic splines, which carry all of them.
+inline std::vector<std::vector<std::string>> all_transfers() {
+  std::vector<std::vector<std::string>> overrides;
+  for (const TransferScheme& one : transfer_schemes) {
+    overrides.push_back({"transfer.velocity=" + std::string(one.name)});
+  }
+  return overrides;
 }
 
 /// Calls action(communicator) on a communicator of the first `ranks` ranks; others wait. Collective
@@ -126,6 +136,12 @@ template <class T>
 T from_rank_zero(T value) {
   MPI_Bcast(&value, sizeof value, MPI_BYTE, 0, MPI_COMM_WORLD);
   return value;
+}
+
+/// Particle-steps whose transfer took heat away, on all ranks: a fault of the scheme. Collective.
+template <int Dim>
+std::int64_t negative_heats(const Simulation<Dim>& sim) {
+  return sum(sim.ledger.guards.negative_heat, sim.communicator);
 }
 
 /// Energies and momentum of all ranks.

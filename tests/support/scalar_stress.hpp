@@ -41,14 +41,13 @@ struct PointState {
   bool failed = false;
 };
 
-/// What the grid tells the particle. With averaging the dilatations are not the gradients' own.
+/// What the grid tells the particle.
 struct PointMotion {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< 1/s, at the end of the step
   Eigen::Matrix3d rate = Eigen::Matrix3d::Zero();      ///< 1/s, symmetric, at its middle
   double heat = 0.0;                                   ///< J/kg
-  double speed = 0.0;  ///< m/s, largest component relative to the grid
-  bool averaging = false;
-  double dilatation_end = 0.0, dilatation_mid = 0.0;
+  double speed = 0.0;                    ///< m/s, largest component relative to the grid
+  double linear = 1.0, quadratic = 1.0;  ///< shares of the artificial viscosity that act
 };
 
 struct PointReport {
@@ -164,9 +163,7 @@ inline void fail(const StressLaw& law, double v, PointReport& report, PointState
 inline PointReport advance_point(const StressLaw& law, const PointMotion& motion, double dt,
                                  PointState& p) {
   const Solid& m = law.solid;
-  const double own = motion.gradient.trace();
-  const double mid = motion.averaging ? motion.dilatation_mid : motion.rate.trace();
-  const double end = motion.averaging ? motion.dilatation_end : own;
+  const double mid = motion.rate.trace();
   const double v0 = 1.0 / p.density;
   PointReport report;
   report.viscous_heat = -dt * v0 * p.viscous_pressure * mid;
@@ -175,9 +172,7 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
 
   const Eigen::Matrix3d H = dt * motion.gradient;
   const Stretch stretch = left_stretch(H);
-  double ratio = (Eigen::Matrix3d::Identity() + H).determinant();
-  if (motion.averaging) ratio *= (1.0 + dt * end) / (1.0 + dt * own);
-  p.density /= ratio;
+  p.density /= (Eigen::Matrix3d::Identity() + H).determinant();
   const Eigen::Matrix3d& R = stretch.rotation;
   const Eigen::Matrix3d start = R * p.deviator * R.transpose();
   p.back_stress = (R * p.back_stress * R.transpose()).eval();
@@ -199,12 +194,14 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
     report.sound_speed = std::sqrt(bulk2 + 4.0 / 3.0 * m.shear * v);
   }
   if (p.failed || p.pressure < -law.spall) fail(law, v, report, p);
-  const double closing = std::max(0.0, -end) * law.cell;
-  const double speed = report.sound_speed;
-  p.viscous_pressure =
-      p.density * (law.quadratic * closing * closing + law.linear * speed * closing);
-  const double Q = closing > 0.0 ? law.linear * speed + law.quadratic * closing : 0.0;
-  const double wave = law.cfl * law.cell / (motion.speed + Q + std::hypot(Q, speed));
+  const double closing = std::max(0.0, -motion.gradient.trace()) * law.cell;
+  const double c = report.sound_speed;
+  const double faded = closing / (closing + 1e-6 * c);
+  const double linear = law.linear * motion.linear * faded;
+  const double quadratic = law.quadratic * motion.quadratic;
+  p.viscous_pressure = p.density * (quadratic * closing * closing + linear * c * closing);
+  const double Q = closing > 0.0 ? linear * c + quadratic * closing : 0.0;
+  const double wave = law.cfl * law.cell / (motion.speed + Q + std::hypot(Q, c));
   const double largest = motion.gradient.cwiseAbs().maxCoeff();
   report.dt_limit = largest > 0.0 ? std::min(wave, 0.2 / largest) : wave;
   return report;

@@ -33,14 +33,14 @@ class Plan(unittest.TestCase):
         cases = plan.all_cases(plan.QUICK)
         names = [case.name for case in cases]
         self.assertEqual(len(names), len(set(names)))
-        # 8 + 7 velocities, 5 more void fractions, the solid, 10 variants.
-        self.assertEqual(len(names), 31)
+        # 8 + 7 velocities, 5 more void fractions, the solid, 11 variants.
+        self.assertEqual(len(names), 32)
         for case in cases:
             values = dict(setting.split("=", 1) for setting in case.settings)
             end, porosity, velocity = (float(values[key]) for key in ("time.end", "sample.porosity", "loading.velocity"))
             least = plan.loading_time(porosity, velocity)
             self.assertGreater(end, least, case.name)
-        self.assertEqual(len(plan.all_cases(plan.FULL)), 2 + 2 * 3 * 20 - 1 + 11)
+        self.assertEqual(len(plan.all_cases(plan.FULL)), 2 + 2 * 3 * 20 - 1 + 12)
 
     def test_loading_time_of_the_snow_plow(self):
         self.assertAlmostEqual(plan.loading_time(0.077, 1100), 874e-9, delta=1e-9)

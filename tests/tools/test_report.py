@@ -36,6 +36,8 @@ class Report(unittest.TestCase):
         self.assertNotIn("http", re.sub(r'base64,[^"]*', "", text))
         self.assertNotIn("Missing:", text)
         self.assertIn("Thermal mode: paper.", text)
+        # 0.04 of the transfers in 0.95 of all heat.
+        self.assertIn("without friction, is 4.21 % of all heat at the end.", text)
         self.assertIn("<td>Us [m/s]</td><td>3300.0</td>", text)
         self.assertEqual({path.name for path in (self.folder / "pictures").iterdir()}, PICTURES)
 
@@ -130,6 +132,13 @@ class Report(unittest.TestCase):
         self.assertEqual(len(columns["time"]), 101)
         self.assertEqual((units["kinetic"], units["momentum_y"], units["step"]), ("J/m", "kg/s", "-"))
         numpy.testing.assert_allclose(columns["kinetic"] + columns["internal"], columns["total"], rtol=1e-15)
+
+
+class Heat(unittest.TestCase):
+    def test_numerical_share_counts_transfers_and_contacts_but_no_friction(self):
+        columns = {name: numpy.array([0.0, value]) for name, value in
+                   zip(folder.HEATS, (40.0, 30.0, 6.0, 4.0, 2.0, 18.0))}
+        numpy.testing.assert_array_equal(folder.numerical_share(columns), [numpy.nan, 0.08])
 
 
 class Figures(unittest.TestCase):

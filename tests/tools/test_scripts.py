@@ -173,7 +173,8 @@ class Commands(unittest.TestCase):
         if on_signal:
             self.assertEqual(job.stdout.readline(), "ready\n")
             job.send_signal(signal.SIGUSR1)
-        return lines + job.communicate(timeout=30)[0].splitlines(), job.returncode
+        # Not communicate: it would miss what the stream has read ahead.
+        return lines + job.stdout.read().splitlines(), job.wait(timeout=30)
 
     def test_chain_submits_itself_until_the_run_is_done(self):
         start = "run -n 8 build/release/poreshock run s.toml --output out"

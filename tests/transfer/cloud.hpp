@@ -5,11 +5,13 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/grid/slab_grid.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
+#include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/shape.hpp"
 #include "poreshock/transfer/step_data.hpp"
@@ -35,25 +37,31 @@ struct Choice {
   bool periodic;
 };
 
-inline const std::array<Choice, 11> all_choices = {
-    {{ShapeFunction::quadratic, VelocityTransfer::apic, false},
-     {ShapeFunction::quadratic, VelocityTransfer::flip, true},
-     {ShapeFunction::cubic, VelocityTransfer::apic, false},
-     {ShapeFunction::cubic, VelocityTransfer::apic, true},
-     {ShapeFunction::cubic, VelocityTransfer::flip, false},
-     {ShapeFunction::quadratic, VelocityTransfer::apic, true},
-     {ShapeFunction::linear, VelocityTransfer::flip, true},
-     {ShapeFunction::gimp, VelocityTransfer::flip, false},
-     {ShapeFunction::gimp, VelocityTransfer::flip, true},
-     {ShapeFunction::quadratic, VelocityTransfer::pic, false},
-     {ShapeFunction::cubic, VelocityTransfer::pic, true}}};
+inline const std::vector<Choice> all_choices = {
+    {ShapeFunction::linear, VelocityTransfer::flip, true},
+    {ShapeFunction::gimp, VelocityTransfer::flip, false},
+    {ShapeFunction::gimp, VelocityTransfer::flip, true},
+    {ShapeFunction::quadratic, VelocityTransfer::pic, false},
+    {ShapeFunction::quadratic, VelocityTransfer::flip, true},
+    {ShapeFunction::quadratic, VelocityTransfer::apic, false},
+    {ShapeFunction::quadratic, VelocityTransfer::apic, true},
+    {ShapeFunction::quadratic, VelocityTransfer::aflip, true},
+    {ShapeFunction::quadratic, VelocityTransfer::iapic, false},
+    {ShapeFunction::cubic, VelocityTransfer::pic, true},
+    {ShapeFunction::cubic, VelocityTransfer::flip, false},
+    {ShapeFunction::cubic, VelocityTransfer::apic, false},
+    {ShapeFunction::cubic, VelocityTransfer::apic, true},
+    {ShapeFunction::cubic, VelocityTransfer::aflip, false},
+    {ShapeFunction::cubic, VelocityTransfer::iapic, true},
+    {ShapeFunction::cubic, VelocityTransfer::polypic, false},
+    {ShapeFunction::cubic, VelocityTransfer::polyflip, false},
+    {ShapeFunction::cubic, VelocityTransfer::polyflip, true},
+    {ShapeFunction::cubic, VelocityTransfer::ipolypic, true}};
 
 inline std::string name(const Choice& choice) {
   constexpr std::array shapes = {"linear ", "gimp ", "quadratic ", "cubic "};
-  constexpr std::array velocities = {"pic", "flip", "apic"};
-  return std::string(shapes[static_cast<std::size_t>(choice.shape)]) +
-         velocities[static_cast<std::size_t>(choice.velocity)] +
-         (choice.periodic ? " periodic" : "");
+  return shapes[static_cast<std::size_t>(choice.shape)] +
+         std::string(scheme_of(choice.velocity).name) + (choice.periodic ? " periodic" : "");
 }
 
 inline constexpr double half_length = 0.25;  // cells
@@ -71,7 +79,7 @@ GridShape cloud_grid(const Choice& choice) {
 }
 
 /// Random particles in the whole domain but two rows of cells, some on cell edges and centres;
-/// aluminium under 10 GPa, up to 500 m/s, gradients up to 1e7 1/s.
+/// aluminium under 10 GPa, up to 500 m/s, gradients up to 1e7 1/s, second modes up to 100 m/s.
 template <int Dim>
 Cloud<Dim> make_cloud(const Choice& choice) {
   Cloud<Dim> cloud;
@@ -80,7 +88,9 @@ Cloud<Dim> make_cloud(const Choice& choice) {
   cloud.transfer.velocity = choice.velocity;
   cloud.transfer.half_length = half_length;
   Particles<Dim>& particles = cloud.particles;
-  particles.options.affine = choice.velocity == VelocityTransfer::apic;
+  const Modes modes = scheme_of(choice.velocity).modes;
+  particles.options.affine = modes != Modes::constant;
+  particles.options.quadratic = modes == Modes::quadratic;
   const std::size_t count = Dim == 2 ? 300 : 500;
   resize(particles, count);
   reference::Random random{2010};
@@ -104,6 +114,9 @@ Cloud<Dim> make_cloud(const Choice& choice) {
     for (auto& column : particles.affine) {
       if (!column.empty()) column[p] = between(-1e7, 1e7);
     }
+    for (auto& column : particles.quadratic) {
+      if (!column.empty()) column[p] = between(-100.0, 100.0);
+    }
     particles.density[p] = between(2000.0, 4000.0);
     particles.mass[p] = between(0.5, 1.5) * 2700.0 * std::pow(cell, Dim) / 4.0;
     particles.pressure[p] = between(-1e9, 1e10);
@@ -116,11 +129,11 @@ Cloud<Dim> make_cloud(const Choice& choice) {
 /// What one rank needs for the transfers of a step.
 template <int Dim>
 struct Slab {
-  std::unique_ptr<SlabGrid> grid, averages;
+  std::unique_ptr<SlabGrid> grid;
   Particles<Dim> particles;
   CellOrder cells;
   StepData<Dim> step;
-  Int128 filter_heat = 0;
+  TransferReport report;
 };
 
 /// Lowest stencil node of a particle along an axis.
@@ -141,7 +154,6 @@ Slab<Dim> make_slab(const Cloud<Dim>& cloud, const std::vector<std::uint32_t>& s
   const std::vector<int> starts =
       partition_rows(weights, size(communicator), slab_limits(cloud.shape));
   slab.grid = std::make_unique<SlabGrid>(cloud.shape, starts, communicator);
-  slab.averages = std::make_unique<SlabGrid>(cloud.shape, starts, communicator);
   std::vector<std::uint32_t> mine, cell;
   for (const std::uint32_t p : storage) {
     const int row = stencil_base(cloud, Dim - 1, p);
@@ -165,34 +177,13 @@ template <int Dim>
 void store_like_particles(Slab<Dim>& slab) {
   const auto bring = [&](std::vector<double>& column) {
     const std::vector<double> ordered = column;
-    if (ordered.size() != slab.particles.size()) return;  // not in use
     for (std::size_t k = 0; k < ordered.size(); ++k) column[slab.cells.order[k]] = ordered[k];
   };
   for (auto& column : slab.step.gradient) bring(column);
   for (auto& column : slab.step.rate) bring(column);
-  for (auto* column : {&slab.step.heat, &slab.step.dilatation_end, &slab.step.dilatation_mid}) {
-    bring(*column);
-  }
-}
-
-/// What a particle of this slab takes of the nodal averages of the pressure, Pa.
-template <int Dim>
-std::vector<double> averaged_pressure(const Cloud<Dim>& cloud, const Slab<Dim>& slab) {
-  std::vector<double> result(slab.particles.size());
-  const double share = cloud.transfer.averaging;
-  with_shape(cloud.transfer, [&]<class Spline>(const Spline& spline) {
-    gather<Dim>(spline, slab.particles, slab.cells, *slab.averages,
-                [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, const Lanes* nodes) {
-                  const double own =
-                      slab.particles.pressure[p] + slab.particles.viscous_pressure[p];
-                  double mean = 0.0;
-                  for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-                    mean += node_weight<Dim, Spline>(stencil, n) * nodes[n][AverageLane::pressure];
-                  }
-                  result[p] = (1.0 - share) * own + share * mean;
-                });
-  });
-  return result;
+  bring(slab.step.heat);
+  bring(slab.step.viscous_linear);
+  bring(slab.step.viscous_quadratic);
 }
 
 /// The same, stored in the order of ids.
@@ -221,14 +212,16 @@ template <int Dim>
 Particles<Dim> all_particles(const Cloud<Dim>& cloud, const Slab<Dim>& slab,
                              MPI_Comm communicator) {
   Particles<Dim> all = cloud.particles;
-  for (int a = 0; a < Dim; ++a) {
-    const std::size_t count = all.size();
-    all.position[a] = by_id(slab.particles, slab.particles.position[a], count, communicator);
-    all.velocity[a] = by_id(slab.particles, slab.particles.velocity[a], count, communicator);
-    for (int k = a; k < Dim * Dim && all.options.affine; k += Dim) {
-      all.affine[k] = by_id(slab.particles, slab.particles.affine[k], count, communicator);
+  const auto collect = [&](const auto& local, auto& columns) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (!columns[k].empty())
+        columns[k] = by_id(slab.particles, local[k], all.size(), communicator);
     }
-  }
+  };
+  collect(slab.particles.position, all.position);
+  collect(slab.particles.velocity, all.velocity);
+  collect(slab.particles.affine, all.affine);
+  collect(slab.particles.quadratic, all.quadratic);
   return all;
 }
 

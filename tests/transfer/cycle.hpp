@@ -2,7 +2,6 @@
 // One way to the nodes and back, and what particles have in total.
 
 #include "poreshock/core/fixed_point.hpp"
-#include "poreshock/transfer/average.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
 #include "poreshock/transfer/sweep.hpp"
@@ -11,30 +10,46 @@
 
 namespace poreshock::test {
 
-inline constexpr double time_step = 2e-9;  // s
+inline constexpr double time_step = 2e-9;  // s, in which sound crosses a cell
+
+/// Sound crosses a cell of the clouds in one step.
+inline double cycle_loss(const Transfer& transfer) {
+  return lost_share(transfer, 5000.0, 1e-5, time_step);
+}
+
+/// How particles move in a cycle of length dt; the share lost is always that of time_step.
+template <int Dim>
+ParticleMotion<Dim> cycle_motion(const Transfer& transfer, double dt) {
+  ParticleMotion<Dim> motion;
+  motion.dt = dt;
+  motion.lost = cycle_loss(transfer);
+  motion.limited = transfer.shape == ShapeFunction::cubic;
+  return motion;
+}
 
 /// Particles to nodes, a kick of every node, and back, on the slabs of a communicator. Returns what
 /// the nodes gained in total. Collective.
 template <int Dim, class Kick>
-NodeGain transfer_cycle(const Cloud<Dim>& cloud, double inverse_quantum, Kick&& kick,
-                        MPI_Comm communicator, Slab<Dim>& slab) {
-  const bool averaging = cloud.transfer.averaging > 0.0;
-  particles_to_grid(slab.particles, slab.cells, cloud.transfer,
-                    averaging ? slab.averages.get() : nullptr, *slab.grid);
+NodeGain<Dim> transfer_cycle(const Cloud<Dim>& cloud, const ParticleMotion<Dim>& motion,
+                             Kick&& kick, MPI_Comm communicator, Slab<Dim>& slab) {
+  particles_to_grid(slab.particles, slab.cells, cloud.transfer, *slab.grid);
   slab.grid->exchange();
-  NodeGain gain = kick_nodes<Dim>(projects(cloud.transfer.velocity), kick, *slab.grid);
-  for (double* value : {&gain.work, &gain.heat}) {
-    MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_SUM, communicator);
-  }
-  prepare_gather<Dim>(cloud.transfer, damped_share(cloud.transfer, time_step), *slab.grid);
-  if (averaging) {
-    average_dilatation(slab.particles, slab.cells, cloud.transfer, *slab.grid, *slab.averages);
-  }
-  grid_to_particles<Dim>(*slab.grid, averaging ? slab.averages.get() : nullptr, slab.cells,
-                         all_rows(*slab.grid), cloud.transfer, Vector<Dim>::Zero(), time_step,
-                         inverse_quantum, slab.particles, slab.step, slab.filter_heat);
+  NodeGain<Dim> gain = kick_nodes<Dim>(kick, *slab.grid);
+  MPI_Allreduce(MPI_IN_PLACE, &gain.work, 1, MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, gain.impulse.data(), Dim, MPI_DOUBLE, MPI_SUM, communicator);
+  prepare_gather<Dim>(motion.lost, *slab.grid);
+  grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid), cloud.transfer, motion,
+                         slab.particles, slab.step, slab.report);
   store_like_particles(slab);
   return gain;
+}
+
+/// The same over time_step.
+template <int Dim, class Kick>
+NodeGain<Dim> transfer_cycle(const Cloud<Dim>& cloud, Kick&& kick, MPI_Comm communicator,
+                             Slab<Dim>& slab) {
+  return transfer_cycle(cloud, cycle_motion<Dim>(cloud.transfer, time_step), kick, communicator,
+                        slab);
 }
 
 /// Leaves the nodes alone.
@@ -52,14 +67,17 @@ Vector<Dim> random_kick(int node) {
   return kick;
 }
 
-/// Kinetic energy with the affine part, J.
+/// Kinetic energy with all modes, J.
 template <int Dim>
 double kinetic_energy(const GridShape& shape, const Particles<Dim>& particles) {
   long double energy = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    energy += 0.5 * particles.mass[p] *
-              (reference::velocity(particles, p).squaredNorm() +
-               reference::inertia(shape) * reference::affine(particles, p).squaredNorm());
+    double squares = reference::velocity(particles, p).squaredNorm() +
+                     reference::inertia(shape) * reference::affine(particles, p).squaredNorm();
+    for (const auto& column : particles.quadratic) {
+      if (!column.empty()) squares += column[p] * column[p];
+    }
+    energy += 0.5 * particles.mass[p] * squares;
   }
   return static_cast<double>(energy);
 }

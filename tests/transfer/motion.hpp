@@ -44,18 +44,20 @@ void set_motion(const std::vector<reference::NodeMotion<Dim>>& nodes, SlabGrid& 
   }
 }
 
-/// Work of the kicks and heat left at the nodes, J.
+/// What the nodes gain by kicks: J, kg m/s.
+template <int Dim>
 struct NodeGain {
-  double work = 0.0, heat = 0.0;
+  double work = 0.0;
+  Vector<Dim> impulse = Vector<Dim>::Zero();
 };
 
-/// From nodal sums to motion: v = p/m, v' = v + kick of the node; PIC and APIC leave the
-/// kinetic energy that the node cannot hold as heat. Returns the gain of the nodes this rank owns.
+/// From nodal sums to motion: v = p/m, v' = v + kick of the node. Returns the gain of the nodes
+/// this rank owns.
 template <int Dim, class Kick>
-NodeGain kick_nodes(bool projected, Kick&& kick, SlabGrid& grid) {
+NodeGain<Dim> kick_nodes(Kick&& kick, SlabGrid& grid) {
   using Sum = SumLane<Dim>;
   using Lane = MotionLane<Dim>;
-  NodeGain gain;
+  NodeGain<Dim> gain;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     for (int i = 0; i < grid.shape().row_size; ++i) {
       Lanes& lanes = grid.row(row)[i];
@@ -64,19 +66,17 @@ NodeGain kick_nodes(bool projected, Kick&& kick, SlabGrid& grid) {
       const double mass = sums[Sum::mass];
       if (mass == 0.0) continue;
       const Vector<Dim> change = kick(row * grid.shape().row_size + i);
-      double energy = 0.0, power = 0.0;
+      double power = 0.0;
       for (int a = 0; a < Dim; ++a) {
         const double start = sums[Sum::momentum + a] / mass;
         lanes[Lane::start_velocity + a] = start;
         lanes[Lane::end_velocity + a] = start + change[a];
-        energy += 0.5 * start * start;
         power += change[a] * (start + 0.5 * change[a]);
       }
-      lanes[Lane::heat] = projected ? sums[Sum::kinetic] / mass - energy : 0.0;
       lanes[Lane::mass] = mass;
       if (row >= grid.last_row()) continue;
       gain.work += mass * power;
-      gain.heat += mass * lanes[Lane::heat];
+      gain.impulse += mass * change;
     }
   }
   return gain;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/checksum.hpp"
 #include "support/runs.hpp"
 #include "verification/verify.hpp"
@@ -28,6 +29,23 @@ inline std::string digits(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", x);
   return text;
+}
+
+/// Overrides that give a plain scene a velocity transfer with its own damping, and more.
+inline std::vector<std::string> with_transfer(VelocityTransfer velocity,
+                                              std::vector<std::string> more = {}) {
+  const TransferScheme& scheme = scheme_of(velocity);
+  more.push_back("transfer.velocity=" + std::string(scheme.name));
+  more.push_back("transfer.damping=" + digits(scheme.damping));
+  return more;
+}
+
+/// Overrides that turn a plain scene into one of the default scheme.
+inline std::vector<std::string> default_scheme() {
+  const Viscosity viscosity;
+  return with_transfer(VelocityTransfer::polyflip,
+                       {"viscosity.limited=true", "viscosity.linear=" + digits(viscosity.linear),
+                        "viscosity.quadratic=" + digits(viscosity.quadratic)});
 }
 
 /// A solid block of 4 mm on cells of 10 um that falls onto a wall: the keys of its material but

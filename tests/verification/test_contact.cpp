@@ -218,7 +218,6 @@ grain = 2
 velocity = [-0.1, -0.1]
 [transfer]
 velocity = "flip"
-averaging = 0.0
 [viscosity]
 linear = 0.0
 quadratic = 0.0
@@ -249,6 +248,10 @@ void verify_elastic_discs(const std::string& name, const std::vector<std::string
 
 TEST(ElasticDiscs, LoseLittleEnergyAndNoMomentum) {
   verify_elastic_discs("elastic_discs", {});
+}
+
+TEST(ElasticDiscs, LoseLittleEnergyWithPolyFlip) {
+  verify_elastic_discs("elastic_discs_polyflip", {"transfer.velocity=polyflip"});
 }
 
 TEST(ElasticDiscs, LoseLittleWithNormalsOfPartingPlanes) {

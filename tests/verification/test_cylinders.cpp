@@ -217,7 +217,7 @@ Closing pressed_void(double pressure, double gate, bool stop_there, int cells_pe
   Simulation<2> sim =
       start<2>(plain_scene_of(ring_text(size, cell, void_radius, ring_outer,
                                         "[time]\nend = 4e-6\n[output]\nbeat = 4e-6\n"),
-                              {"material.0.gamma=0.0"}),
+                              {"material.0.gamma=0.0", "time.cfl=0.5"}),
                MPI_COMM_SELF);
   load_to_flow(sim);
   const InnerRadius inner{void_radius, mean_square_radius(sim)};

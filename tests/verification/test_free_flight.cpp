@@ -2,7 +2,6 @@
 // single particles.
 
 #include <algorithm>
-#include <limits>
 
 #include "verification/states.hpp"
 
@@ -71,13 +70,11 @@ constexpr std::int64_t quiet_steps = 100000;
 struct Drift {
   double velocity = 0.0;     ///< of the sound speed
   double temperature = 0.0;  ///< K
-  double rounding = 0.0;     ///< K, what one rounding of the pressure's work per step comes to
 };
 
 Drift quiet_run(double factor, const std::vector<std::string>& overrides) {
   Simulation<2> sim = compressed_block(factor, overrides);
-  const double pressure = sim.particles.pressure[0], density = sim.particles.density[0];
-  EXPECT_GT(pressure, 0.6 * bulk * (factor - 1.0));
+  EXPECT_GT(sim.particles.pressure[0], 0.6 * bulk * (factor - 1.0));
   std::vector<double> before, after;
   derive_field<2>("temperature", sim.particles, sim.materials, sim.scene.thermal, before);
   step_by(sim.clock.limit, quiet_steps, sim);
@@ -86,8 +83,6 @@ Drift quiet_run(double factor, const std::vector<std::string>& overrides) {
   drift.velocity = fastest(sim, {0.0, 0.0}) / longitudinal_sound_speed(sim.materials[0]);
   for (const double T : after)
     drift.temperature = std::max(drift.temperature, std::abs(T - before[0]));
-  drift.rounding = static_cast<double>(quiet_steps) * std::numeric_limits<double>::epsilon() *
-                   pressure / (density * heat_properties(sim.materials[0]).cv);
   return drift;
 }
 
@@ -102,33 +97,29 @@ TEST(QuietSolid, ApicStaysQuietUnderPressure) {
 }
 
 TEST(QuietSolid, FlipStaysQuietUnderPressure) {
-  stay_quiet("quiet_solid_flip", 1.01, {"transfer.velocity=flip"});
+  const Drift drift = quiet_run(1.01, {"transfer.velocity=flip"});
+  verify_at_most("quiet_solid_flip", "velocity_over_c", drift.velocity, 1e-12);
+  // A rounding of the pressure's work in every step.
+  verify_known_shortfall("quiet_solid_flip", "temperature_drift_K", drift.temperature, 1e-9,
+                         1.1e-9);
 }
 
-const std::vector<std::string> averaged_quadratic = {"transfer.shape=quadratic",
-                                                     "transfer.averaging=1.0"};
-
-TEST(QuietSolid, AveragedQuadraticApicStaysQuietUnderPressure) {
-  stay_quiet("quiet_solid_averaged", 1.001, averaged_quadratic);
+TEST(QuietSolid, PolyFlipStaysQuietUnderPressure) {
+  stay_quiet("quiet_solid_polyflip", 1.01, default_scheme());
 }
 
-TEST(QuietSolid, AveragedQuadraticApicDriftsByLessThanARoundingPerStep) {
-  // The rounded forces leave 1e-12 m/s in a pattern that averaging does not see. Its change of
-  // volume per step is less than the last digit of the density, so no pressure stops it; its work
-  // is not lost.
-  const Drift drift = quiet_run(1.01, averaged_quadratic);
-  verify_at_most("quiet_solid_averaged_8e8", "velocity_over_c", drift.velocity, 1e-12);
-  verify_at_most("quiet_solid_averaged_8e8", "temperature_drift_per_rounding",
-                 drift.temperature / drift.rounding, 1.0);
+TEST(QuietSolid, QuadraticAflipStaysQuietUnderPressure) {
+  stay_quiet("quiet_solid_quadratic_aflip", 1.01,
+             with_transfer(VelocityTransfer::aflip, {"transfer.shape=quadratic"}));
 }
 
 // --- translation -----------------------------------------------------------------------------
 
 void translate(const std::string& name, const std::vector<std::string>& overrides) {
-  // 1e4 steps: more than 600 cells along x, 100 along y.
+  // 1e4 steps: more than 500 cells along x, 100 along y.
   const std::string text = std::string(R"(
 [domain]
-size = [60e-6, 1.2e-3]
+size = [60e-6, 4e-3]
 cell = 10e-6
 periodic = true
 [boundary]
@@ -137,7 +128,7 @@ low = "free"
 kind = "solid"
 height = 60e-6
 [loading]
-frame = [1100.0, 170.0]
+frame = [1100.0, 250.0]
 [time]
 end = 1.0
 )") + aluminium_text;
@@ -150,7 +141,7 @@ end = 1.0
     if (half == 0) stress_halfway = largest_stress(sim);
   }
   const HistoryRow after = stock(sim);
-  EXPECT_GT(170.0 * sim.clock.time, 100 * 10e-6);
+  EXPECT_GT(250.0 * sim.clock.time, 100 * 10e-6);
   EXPECT_EQ(after.particles, before.particles);
   verify_at_most(name, "stress_over_K0", largest_stress(sim) / bulk, 1e-9);
   record(name, "stress_over_K0_halfway", stress_halfway / bulk);
@@ -158,7 +149,7 @@ end = 1.0
     verify_at_most(name, a == 0 ? "momentum_x" : "momentum_y",
                    std::abs(after.momentum[a] / before.momentum[a] - 1.0), 1e-14);
   }
-  verify_at_most(name, "velocity_noise", fastest(sim, {1100.0, 170.0}) / 1100.0, 1e-10);
+  verify_at_most(name, "velocity_noise", fastest(sim, {1100.0, 250.0}) / 1100.0, 1e-10);
 }
 
 TEST(Translation, CubicApicFeelsNothing) {
@@ -169,8 +160,13 @@ TEST(Translation, CubicFlipFeelsNothing) {
   translate("translation_cubic_flip", {"transfer.velocity=flip"});
 }
 
-TEST(Translation, AveragedQuadraticApicFeelsNothing) {
-  translate("translation_averaged", {"transfer.shape=quadratic", "transfer.averaging=1.0"});
+TEST(Translation, PolyFlipFeelsNothing) {
+  translate("translation_polyflip", default_scheme());
+}
+
+TEST(Translation, QuadraticAflipFeelsNothing) {
+  translate("translation_quadratic_aflip",
+            with_transfer(VelocityTransfer::aflip, {"transfer.shape=quadratic"}));
 }
 
 // --- single particles ------------------------------------------------------------------------
@@ -207,8 +203,9 @@ void spray(const std::string& name, const std::vector<std::string>& overrides) {
   set_motion([&](const Plane& x) { return Motion{{speed(x[0]), speed(x[1])}, {}}; }, sim);
   std::vector<double> before, after;
   derive_field<2>("temperature", sim.particles, sim.materials, sim.scene.thermal, before);
-  const double dt = 0.8 * sim.clock.limit;
-  step_by(dt, static_cast<std::int64_t>(std::ceil(1.0e-3 / 1100.0 / dt)), sim);
+  sim.scene.time.end = 1.0e-3 / 1100.0;
+  advance_to(1000000, 0, sim);
+  ASSERT_EQ(sim.clock.bad, 0);
   double velocity = 0.0, place = 0.0, farthest = 0.0;
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     const Plane X = site(sim, p);
@@ -236,6 +233,10 @@ TEST(Spray, ApicParticlesFlyOn) {
 
 TEST(Spray, FlipParticlesFlyOn) {
   spray("spray_cubic_flip", {"transfer.velocity=flip"});
+}
+
+TEST(Spray, PolyFlipParticlesFlyOn) {
+  spray("spray_polyflip", default_scheme());
 }
 
 TEST(Spray, QuadraticApicParticlesFlyOn) {

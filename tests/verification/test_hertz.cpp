@@ -5,8 +5,7 @@
 // A segment of each stands for it, with its lattice bent along the arc: steps of half a cell
 // would hide the gap beside the contact. Poisson's ratio is high so that the compression, which the
 // equation of state stiffens, stays small. The load is a body force; at every peak of the kinetic
-// energy all motion is taken out. Without averaged dilatation, as the stress of single particles is
-// read.
+// energy all motion is taken out.
 
 #include <numbers>
 
@@ -71,6 +70,7 @@ double kinetic(const Particles<2>& q) {
 void stop(Particles<2>& q) {
   for (auto& column : q.velocity) std::fill(column.begin(), column.end(), 0.0);
   for (auto& column : q.affine) std::fill(column.begin(), column.end(), 0.0);
+  for (auto& column : q.quadratic) std::fill(column.begin(), column.end(), 0.0);
 }
 
 /// Presses the segments together until `time`.
@@ -126,8 +126,7 @@ Contact contact_of(const Simulation<2>& sim) {
 
 Contact pressed(int cells_per_half_width) {
   Simulation<2> sim =
-      start<2>(scene_of(scene_text(half_width / cells_per_half_width), {"transfer.averaging=0.0"}),
-               MPI_COMM_SELF);
+      start<2>(scene_of(scene_text(half_width / cells_per_half_width)), MPI_COMM_SELF);
   bend(sim);
   press(4.0 * height / std::sqrt(young / density), sim);
   return contact_of(sim);

@@ -2,6 +2,7 @@
 // periodic axis.
 
 #include <algorithm>
+#include <functional>
 
 #include "verification/states.hpp"
 
@@ -74,7 +75,10 @@ double difference(const std::unordered_map<std::int64_t, State>& a,
   return std::max({dp / pressure, dv / speed, de / energy});
 }
 
-void mirror_and_shift(const std::string& name, const std::vector<std::string>& overrides) {
+using Verify =
+    std::function<void(const std::string& figure, double difference, std::int64_t steps)>;
+
+void mirror_and_shift(const std::vector<std::string>& overrides, const Verify& verify) {
   const Scene scene = block(overrides);
   for (const std::int64_t steps : {100, 400}) {
     const auto original = run_changed(scene, steps, unchanged_place, unchanged_column, 1.0);
@@ -87,20 +91,35 @@ void mirror_and_shift(const std::string& name, const std::vector<std::string>& o
         [&](double x, double width) { return x + cell < width ? x + cell : x + cell - width; },
         [](std::int64_t c) { return (c + columns - 2) % columns; }, 1.0);
     const std::string suffix = steps == 100 ? "_100" : "_400";
-    const double bar = steps == 100 ? 1e-12 : 1e-10;
-    verify_at_most(name, "mirror" + suffix, difference(original, mirrored), bar);
-    verify_at_most(name, "shift" + suffix, difference(original, shifted), bar);
+    verify("mirror" + suffix, difference(original, mirrored), steps);
+    verify("shift" + suffix, difference(original, shifted), steps);
   }
 }
 
-TEST(Invariance, MirrorAndShiftWithCubicApic) {
-  mirror_and_shift("invariance_cubic_apic", {});
+constexpr double bar_after(std::int64_t steps) {
+  return steps == 100 ? 1e-12 : 1e-10;
 }
 
-TEST(Invariance, MirrorAndShiftWithAveragedQuadraticFlip) {
-  mirror_and_shift("invariance_averaged_flip",
-                   {"transfer.shape=quadratic", "transfer.velocity=flip", "transfer.damping=1e8",
-                    "transfer.averaging=1.0"});
+Verify meets_bars(const std::string& name) {
+  return [name](const std::string& figure, double found, std::int64_t steps) {
+    verify_at_most(name, figure, found, bar_after(steps));
+  };
+}
+
+TEST(Invariance, MirrorAndShiftWithCubicApic) {
+  mirror_and_shift({}, meets_bars("invariance_cubic_apic"));
+}
+
+TEST(Invariance, MirrorAndShiftWithPolyFlip) {
+  // Where a limiter sets in, rounding decides which of two jumps is the smaller.
+  mirror_and_shift(default_scheme(), [](const auto& figure, double found, std::int64_t steps) {
+    verify_known_shortfall("invariance_polyflip", figure, found, bar_after(steps), 1e-8);
+  });
+}
+
+TEST(Invariance, MirrorAndShiftWithQuadraticFlip) {
+  mirror_and_shift({"transfer.shape=quadratic", "transfer.velocity=flip", "transfer.damping=0.1"},
+                   meets_bars("invariance_quadratic_flip"));
 }
 
 }  // namespace

@@ -163,8 +163,9 @@ Swing run_vortex(double amplitude, int cells, const std::vector<std::string>& ov
   return swing;
 }
 
-void converge(const std::string& name, double amplitude,
-              const std::vector<std::string>& overrides) {
+/// `known` is what the error after the return is known to come to, 0 where it meets its bar.
+void converge(const std::string& name, double amplitude, const std::vector<std::string>& overrides,
+              double known = 0.0) {
   std::vector<Swing> swings;
   for (const int cells : {40, 80, 160}) swings.push_back(run_vortex(amplitude, cells, overrides));
   for (std::size_t i = 0; i + 1 < swings.size(); ++i) {
@@ -180,7 +181,12 @@ void converge(const std::string& name, double amplitude,
   verify_at_least(name, "return_displacement_order",
                   0.5 * order(swings[0].back.error, swings[2].back.error), 1.5);
   verify_at_most(name, "peak_displacement_error_160", swings.back().peak.error, 0.02);
-  verify_at_most(name, "return_displacement_error_160", swings.back().back.error, 0.02);
+  if (known > 0.0) {
+    verify_known_shortfall(name, "return_displacement_error_160", swings.back().back.error, 0.02,
+                           known);
+  } else {
+    verify_at_most(name, "return_displacement_error_160", swings.back().back.error, 0.02);
+  }
   verify_relative(name, "peak_amplitude_160", swings.back().peak.amplitude, 1.0, 0.01);
 }
 
@@ -196,7 +202,7 @@ TEST(Vortex, OneParticleInSimpleShearFollowsTheJaumannRate) {
   const int steps = 4000;
   const double rate = 1.0, dt = 2.0 / steps;
   StepData<2>& step = sim.step_data;
-  resize_ordered(sim.particles.size(), false, step);
+  resize_ordered(sim.particles.size(), step);
   std::vector<std::uint32_t> places(sim.particles.size());
   std::iota(places.begin(), places.end(), 0U);
   for (auto& column : step.gradient) std::fill(column.begin(), column.end(), 0.0);
@@ -228,6 +234,14 @@ TEST(Vortex, CubicApicConvergesAtSmallAmplitude) {
 
 TEST(Vortex, CubicApicConvergesAtLargeAmplitude) {
   converge("vortex_cubic_apic_0.2", 0.2, {});
+}
+
+TEST(Vortex, PolyFlipConvergesAtSmallAmplitude) {
+  converge("vortex_polyflip_0.05", 0.05, with_transfer(VelocityTransfer::polyflip));
+}
+
+TEST(Vortex, PolyFlipConvergesAtLargeAmplitude) {
+  converge("vortex_polyflip_0.2", 0.2, with_transfer(VelocityTransfer::polyflip), 0.09);
 }
 
 TEST(Vortex, CubicFlipConverges) {

@@ -8,24 +8,25 @@ from functools import partial
 
 from poreshock_cases import impact, plate
 from poreshock_cases.always import DRIFT
-from poreshock_cases.catalogue import KNOWN as KNOWN_HARD, SMEARED, WALL_HEATING
+from poreshock_cases.catalogue import KNOWN as KNOWN_HARD, LIMITERS
 from poreshock_cases.program import Lab
 from poreshock_cases.table import Row, check
 
 CELL = 10e-6  # m
 VELOCITIES = (300.0, 500.0, 700.0, 900.0, 1100.0, 1500.0, 2000.0, 3000.0)
 ALL = " / ".join(f"{velocity:g}" for velocity in VELOCITIES)
-# Figure: unit, bar at any velocity, bar at 1100 m/s. The temperature at 3000 m/s may be 5 % off.
+# Figure: unit, bar from 700 m/s on, bar below.
 BARS = {
-    "stress": ("%", 0.5, 0.3),
+    "stress": ("%", 0.3, 0.3),
     "density": ("%", 0.1, 0.1),
-    "temperature rise": ("%", 2.0, 1.0),
-    "plastic strain": ("%", 2.0, 2.0),
+    "temperature rise": ("%", 1.0, 1.5),
+    "plastic strain": ("%", 1.0, 1.0),
     "particle noise of the stress": ("%", 1.0, 1.0),
-    "overshoot behind the front": ("%", 5.0, 5.0),
+    "overshoot behind the front": ("%", 3.0, 3.0),
     "front position": ("cells", 1.0, 1.0),
     "energy drift": ("", DRIFT, DRIFT),
 }
+FAST = 700.0  # m/s
 VERIFY = re.compile(r"^(?:\d+: )?(VERIFY .*)$", re.M)
 
 
@@ -50,10 +51,8 @@ def errors(lab, thermal, velocity, cell=CELL, height=5e-3, scene="plate_impact.t
 
 def bar(name, velocity):
     """Largest size a figure may have."""
-    unit, any_velocity, at_1100 = BARS[name]
-    if name == "temperature rise" and velocity == 3000.0:
-        return 5.0
-    return at_1100 if velocity == 1100.0 else any_velocity
+    _, fast, slow = BARS[name]
+    return fast if velocity >= FAST else slow
 
 
 def number(name, value):
@@ -65,13 +64,11 @@ def number(name, value):
 def rows_of_plates(case, found):
     """A row per figure with the values of all velocities; `found` is {velocity: figures}."""
     rows = []
-    for name, (unit, any_velocity, at_1100) in BARS.items():
+    for name, (unit, fast, slow) in BARS.items():
         values = {velocity: figures[name] for velocity, figures in found.items()}
-        bars = f"{any_velocity:g} {unit}".strip()
-        if at_1100 != any_velocity and 1100.0 in values:
-            bars += f", at 1100 {at_1100:g} {unit}"
-        if name == "temperature rise" and 3000.0 in values:
-            bars += ", at 3000 5 %"
+        bars = f"{fast:g} {unit}".strip()
+        if slow != fast and min(values) < FAST:
+            bars += f", below {FAST:g} m/s {slow:g} {unit}"
         missed = [f"{velocity:g}" for velocity, value in values.items() if not abs(value) < bar(name, velocity)]
         text = f"{' / '.join(number(name, value) for value in values.values())} {unit}".strip()
         rows.append(check(case, name, text + (f"; missed at {', '.join(missed)}" if missed else ""), bars,
@@ -129,10 +126,6 @@ def tests(build):
     return rows
 
 
-RINGING = ("Averaged dilatation leaves a ringing behind strong plane fronts that becomes plastic strain. Without it "
-           "(averaging = 0, viscosity 0.6 and 2.25) the plastic strain stays within 1.3 % up to 3000 m/s.")
-LATE = ("The front is late by about a cell from its start on and hardly loses more on its way; without averaging it is "
-        "within half a cell in conserving mode.")
 GAPS = ("Collapsed voids leave gaps, 3.5 % of the space at 5 um and 0.1 % at 2.5 um, which make the front too fast; at "
         "2.5 um it is right.")
 ONE = "One sample; those of the coarser cells differ by 4 % (standard deviation) in this figure."
@@ -142,18 +135,22 @@ RIM = ("What the crossing of cells takes from the stress at the rim of a turning
        "the cells.")
 KNOWN = {
     ("rotation_cubic_apic", "von_mises_drift_per_turn"): RIM,
+    ("rotation_polyflip", "von_mises_drift_per_turn"): RIM,
     ("rotation_residual_stress", "von_mises_drift_per_turn"): RIM,
     ("rotation_residual_stress", "von_mises_drift_per_turn_inner_half"): RIM,
+    ("quiet_solid_flip", "temperature_drift_K"): "A rounding of the pressure's work in each of 1e5 steps.",
+    ("vibration_polyflip", "loss_ratio_64_32"):
+        "PolyFLIP loses 7e-5 in ten periods at 32 cells, a hundredth and less of what the others lose, and no longer of "
+        "their order.",
+    ("vortex_polyflip_0.2", "return_displacement_error_160"):
+        "Transfers that keep the velocity of a particle are further off than those that keep nothing; the error falls with "
+        "the second order.",
     ("porous Hugoniot, void fraction 0.46, 1100 m/s, 5 um, 4 samples", "Us"): GAPS,
     ("porous Hugoniot, void fraction 0.077, 1100 m/s, 5 um, 4 samples", "rise of mean T"): SCATTER,
     ("porous Hugoniot, void fraction 0.3, 1100 m/s, 5 um, 4 samples", "Us"): SCATTER,
     ("porous Hugoniot, void fraction 0.46, 1100 m/s, 2.5 um, one sample", "P behind the front"): ONE,
-    (f"plate, conserving, {ALL} m/s", "plastic strain"): RINGING,
-    (f"plate, paper, {ALL} m/s", "plastic strain"): RINGING,
-    (f"plate, paper, {ALL} m/s", "overshoot behind the front"): RINGING,
-    ("plate in 3-D, 1100 m/s, 20 um cells", "plastic strain"): RINGING,
-    (f"plate, conserving, {ALL} m/s", "front position"): LATE,
-    (f"plate, conserving, {ALL} m/s", "temperature rise"): WALL_HEATING,
-    ("plate in 3-D, 1100 m/s, 20 um cells", "temperature rise"): WALL_HEATING,
-    (f"plate, paper, {ALL} m/s", "front position"): LATE,
-} | {("two waves, 5 mm", figure): reason for (_, figure), reason in KNOWN_HARD.items() if reason == SMEARED}
+} | {(case, figure): LIMITERS for case, figures in {
+    "frame_moving_wall": ("stress_error", "density_error", "temperature_rise_error"),
+    "frame_upwards": ("stress_error", "density_error", "temperature_rise_error"),
+    "invariance_polyflip": ("mirror_100", "shift_100", "mirror_400", "shift_400")}.items() for figure in figures} | {
+    ("two waves, 5 mm", figure): reason for (case, figure), reason in KNOWN_HARD.items() if case == "two_waves"}

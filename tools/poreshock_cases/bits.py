@@ -8,9 +8,9 @@ LENGTHS = {"domain": ("size", "cell"), "sample": ("height",), "time": ("end",), 
 SITES = 64  # particles of a full row
 VARIANTS = {
     "default": (),
-    "cubic APIC": ("transfer.velocity=apic", "transfer.averaging=0"),
+    "cubic APIC": ("transfer.velocity=apic",),
     "paper, kinematic": ("thermal=paper", "material.0.kinematic_share=1"),
-    "quadratic FLIP, averaged": ("transfer.shape=quadratic", "transfer.velocity=flip", "transfer.averaging=1"),
+    "quadratic FLIP, damped": ("transfer.shape=quadratic", "transfer.velocity=flip", "transfer.damping=0.1"),
 }
 
 

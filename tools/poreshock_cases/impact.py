@@ -64,23 +64,25 @@ def elastic(case, lab):
             limit(case, "largest plastic strain", float(numpy.max(state["plastic_strain"])), 1e-300)]
 
 
-def two_waves(case, lab):
-    """Elastic precursor and plastic front, with the default viscosity and with a small linear one."""
+# Impact velocity: bars of the elastic plateau, of the arrival of the precursor and of the plastic front.
+TWO_WAVE_BARS = {500.0: (0.03, 0.01, 0.005), 700.0: (0.05, 0.02, 0.01)}
+
+
+def two_waves(case, lab, cell=10e-6):
+    """Elastic precursor and plastic front."""
     rows = []
-    for label, cell, settings in (("default, 10 um", 10e-6, ()),
-                                  ("viscosity.linear 0.05, 5 um", 5e-6, ("viscosity.linear=0.05",))):
-        for velocity in (500.0, 700.0):
-            run, exact = plate.shock(lab, f"{velocity:g}_{len(settings)}", velocity, *settings, cell=cell)
-            state = run.particles()
-            found = plate.two_waves(state, cell, exact)
-            name = f"{velocity:g} m/s, {label}: "
-            # At one time the heights of a front and its arrival times have the same relative error.
-            rows += [near(case, name + "elastic plateau", found.limit, exact.precursor.stress, 0.05, unit=" MPa",
-                          scale=1e6),
-                     near(case, name + "arrival of the precursor", found.precursor,
-                          plate.front_height(exact.precursor, velocity, state["time"]), 0.01, unit=" mm", scale=1e-3),
-                     near(case, name + "arrival of the plastic front", found.front,
-                          plate.front_height(exact.final, velocity, state["time"]), 0.01, unit=" mm", scale=1e-3)]
+    for velocity, (plateau, precursor, front) in TWO_WAVE_BARS.items():
+        run, exact = plate.shock(lab, f"{velocity:g}", velocity, cell=cell)
+        state = run.particles()
+        found = plate.two_waves(state, cell, exact)
+        name = f"{velocity:g} m/s: "
+        # At one time the heights of a front and its arrival times have the same relative error.
+        rows += [near(case, name + "elastic plateau", found.limit, exact.precursor.stress, plateau, unit=" MPa",
+                      scale=1e6),
+                 near(case, name + "arrival of the precursor", found.precursor,
+                      plate.front_height(exact.precursor, velocity, state["time"]), precursor, unit=" mm", scale=1e-3),
+                 near(case, name + "arrival of the plastic front", found.front,
+                      plate.front_height(exact.final, velocity, state["time"]), front, unit=" mm", scale=1e-3)]
     return rows
 
 

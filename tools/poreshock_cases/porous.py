@@ -8,7 +8,7 @@ import numpy
 from poreshock_cases.always import DRIFT
 from poreshock_cases.program import particles
 from poreshock_cases.table import check, limit, shown
-from poreshock_report import profiles
+from poreshock_report import folder, profiles
 from poreshock_report.hugoniot import snow_plow
 
 # Void fraction and end of the run, s: the front is then about 1.1 mm above the wall.
@@ -125,6 +125,7 @@ def collapse(lab, cell):
             check(case, "guards, particle-steps", sum(run.guards.values()), "0", not any(run.guards.values())),
             check(case, "least step over that of the plane shock", f"{steps / planar:.2f}", ">= 0.25",
                   steps >= 0.25 * planar),
+            shown(case, "numerical dissipation", f"{100.0 * folder.numerical_share(run.history)[-1]:.1f} % of all heat"),
             limit(case, "energy drift", run.drift, DRIFT)]
     return rows if cell == JUDGED_CELL else [shown(row.case, row.figure, row.value) for row in rows]
 

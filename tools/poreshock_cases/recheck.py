@@ -6,16 +6,15 @@ from functools import partial
 
 import numpy
 
-from poreshock_cases import schemes
+from poreshock_cases import collapse, schemes
 
 ROUNDING = 1e-5  # the table holds six digits
 NEAR_ZERO = 1e-9  # round-off figures are not compared
-VOID_FIGURES = ("plastic work", "mean T", "mass above 80 GPa")  # those that need no reference
 
 
-def compared(case, cell, name):
-    """True for the figures that are measured again; cell in m."""
-    return case == "plate" or cell > 1.01 * schemes.VOID_CELLS[-1] and name in VOID_FIGURES
+def compared(case, cell):
+    """True for the runs that are measured again; cell in m."""
+    return case == "plate" or cell > 1.01 * schemes.VOID_CELLS[-1]
 
 
 def key_of(case, scheme, cell, per_cell, name):
@@ -28,20 +27,19 @@ def stored_figures(path):
     with open(path, newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["figure"] and row["value"]]
     return {key_of(row["case"], row["scheme"], float(row["cell [m]"]), int(row["particles per cell"]), row["figure"]):
-            float(row["value"]) for row in rows if compared(row["case"], float(row["cell [m]"]), row["figure"])}
+            float(row["value"]) for row in rows if compared(row["case"], float(row["cell [m]"]))}
 
 
 def found_figures(lab, jobs):
     """The same, measured now."""
     rates = defaultdict(lambda: numpy.nan)  # the cost is not looked at
-    thresholds = (0.0,) * len(schemes.QUANTILES)
     voids = [case for case in schemes.cases(schemes.VOID_CELLS) if case[1] > schemes.VOID_CELLS[-1]]
     with ThreadPoolExecutor(jobs) as pool:
-        collapses = list(pool.map(partial(schemes.void_result, lab, rates, thresholds), voids))
+        collapses = list(pool.map(partial(schemes.void_result, lab, rates, collapse.THRESHOLDS), voids))
     results = [("plate", result) for result in schemes.plates(lab, rates, jobs, False)]
     results += [("voids", result) for result in collapses]
     return {key_of(case, result.scheme.name, result.cell, result.per_cell, name): value for case, result in results
-            for name, value in result.figures.items() if compared(case, result.cell, name)}
+            for name, value in result.figures.items() if compared(case, result.cell)}
 
 
 def check(lab, jobs, path):

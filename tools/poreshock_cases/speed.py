@@ -11,7 +11,7 @@ from poreshock_cases.program import ROOT, CaseError, Run
 
 QUIET = ("output.snapshot=1.0", "morphology.every=0.0", "profile.every=0.0")
 # The function of each phase whose instructions are counted with all that it calls.
-PHASES = {"sort": "sort_particles", "particles to grid": "particles_to_grid", "average": "sum_pressure|sum_dilatation",
+PHASES = {"sort": "sort_particles", "particles to grid": "particles_to_grid",
           "grid to particles": "grid_to_particles", "stress": "update_stress", "contact": "collide"}
 # A core's share of the last cache, as valgrind wants it: bytes, ways, bytes of a line.
 CACHE = "2097152,16,64"
@@ -40,11 +40,12 @@ OTHERS = (Bench("bench/grains.toml", 50e-9, 80e-9), Bench("bench/porous_3d.toml"
 
 SCHEMES = (
     Scheme("default", ()),
-    Scheme("cubic APIC", ("transfer.averaging=0.0", "viscosity.quadratic=2.25")),
-    Scheme("cubic FLIP", ("transfer.velocity='flip'", "transfer.averaging=0.0", "viscosity.quadratic=2.25")),
-    Scheme("cubic FLIP, averaged", ("transfer.velocity='flip'",)),
-    Scheme("quadratic APIC", ("transfer.shape='quadratic'", "transfer.averaging=0.0", "viscosity.quadratic=2.25")),
-    Scheme("quadratic APIC, averaged", ("transfer.shape='quadratic'",)),
+    Scheme("cubic AFLIP", ("transfer.velocity='aflip'",)),
+    Scheme("cubic PolyPIC", ("transfer.velocity='polypic'",)),
+    Scheme("cubic APIC", ("transfer.velocity='apic'",)),
+    Scheme("cubic FLIP", ("transfer.velocity='flip'",)),
+    Scheme("quadratic AFLIP", ("transfer.shape='quadratic'",)),
+    Scheme("quadratic APIC", ("transfer.shape='quadratic'", "transfer.velocity='apic'")),
 )
 
 

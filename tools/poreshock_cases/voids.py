@@ -83,9 +83,12 @@ def slot_histories(run):
     stress, opening = [], []
     for path in run.snapshots:
         state = particles(path)
-        stress.append(float(numpy.average(state["stress"][walls, 1], weights=state["mass"][walls])))
+        # Some may have left the domain.
+        beside = numpy.isin(state["id"], start["id"][walls])
+        above = numpy.isin(state["id"], start["id"][upper])
+        stress.append(float(numpy.average(state["stress"][beside, 1], weights=state["mass"][beside])))
         heights = state["position"][:, 1]
-        opening.append(float(numpy.mean(heights[upper]) - numpy.mean(heights[walls & ~upper])) - cell)
+        opening.append(float(numpy.mean(heights[above]) - numpy.mean(heights[beside & ~above])) - cell)
     return numpy.array(stress), numpy.array(opening)
 
 

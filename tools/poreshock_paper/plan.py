@@ -111,7 +111,9 @@ def variants(study):
                "cells twice as large": {"domain__cell": 2.0 * cell, "morphology__pixel": 2.0 * cell},
                "voids of 30 um": {"sample__void_radius": 30e-6},
                "voids of 60 um": {"sample__void_radius": 60e-6},
-               "without averaging": {"transfer__averaging": 0.0, "viscosity__quadratic": 2.25},
+               "APIC": {"transfer__velocity": "apic"},
+               "APIC": {"transfer__velocity": "apic"},
+               "unlimited viscosity": {"viscosity__limited": False},
                "lineage": {"transfer__preset": "lineage"}}
     if study.finer:
         changes["cells half as large"] = {"domain__cell": 0.5 * cell, "morphology__pixel": 0.5 * cell}

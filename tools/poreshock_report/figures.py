@@ -205,8 +205,7 @@ def drift(columns):
 
 
 LEDGER = ("total", "kinetic", "internal", "escaped", "wall_work", "body_work")
-SPLITS = ("elastic", "plastic_work", "viscous_heat", "filter_heat", "wall_heat", "contact_heat",
-          "friction_heat", "conduction")
+SPLITS = ("elastic", *reader.HEATS, "conduction")
 
 
 def energy(folder):

@@ -66,6 +66,17 @@ def read_history(folder):
     return columns, {title[1]: title[2] or "-" for title in titles}
 
 
+HEATS = ("plastic_work", "viscous_heat", "filter_heat", "wall_heat", "contact_heat", "friction_heat")
+
+
+def numerical_share(columns):
+    """Heat of the transfers and of impulses between grains without friction as a share of all heat, row by row of a
+    history; NaN where there is no heat yet."""
+    heat = sum(columns[name] for name in HEATS)
+    numerical = columns["filter_heat"] + columns["contact_heat"]
+    return numpy.where(heat > 0.0, numerical / numpy.where(heat > 0.0, heat, 1.0), numpy.nan)
+
+
 def snapshot_times(folder):
     """Sorted list of (time, path) of the snapshots that can be read."""
     found = []

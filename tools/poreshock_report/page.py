@@ -169,6 +169,18 @@ def grain_sections(folder):
                     lambda: grain_figures.contact(folder))]
 
 
+def numerical_note(folder):
+    """Sentence on the numerical dissipation, empty where the history does not say."""
+    try:
+        share = reader.numerical_share(reader.read_history(folder)[0])[-1]
+    except (reader.Missing, KeyError):
+        return ""
+    if not share == share:
+        return ""
+    return (f" Numerical dissipation, that is the heat of the velocity transfers and of the impulses between grains "
+            f"without friction, is {100.0 * share:.3g} % of all heat at the end.")
+
+
 def write(folder):
     """Writes report.html and pictures/ into `folder`; returns the path of the page."""
     notes = ""
@@ -203,7 +215,7 @@ def write(folder):
         *grain_sections(folder),
         hugoniot_table(folder),
         picture(folder, "energy", "Energy ledger", "Above: kinetic, internal and total energy. Middle: where the "
-                "energy went. Below: how far the total is from its first value.",
+                "energy went. Below: how far the total is from its first value." + numerical_note(folder),
                 lambda: figures.energy(folder)),
         final_numbers(folder, title, thermal),
     ]

@@ -63,6 +63,9 @@ struct Lanes {
   friend constexpr Lanes operator*(const Lanes& a, double b) { return {a.low * b, a.high * b}; }
   friend constexpr Lanes operator-(const Lanes& a, double b) { return {a.low - b, a.high - b}; }
   friend constexpr Lanes operator/(const Lanes& a, double b) { return {a.low / b, a.high / b}; }
+  friend constexpr Lanes operator/(const Lanes& a, const Lanes& b) {
+    return {a.low / b.low, a.high / b.high};
+  }
   constexpr Lanes& operator+=(double b) { return *this = Lanes(low + b, high + b); }
   constexpr Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
   constexpr Lanes& operator*=(double b) { return *this = *this * b; }

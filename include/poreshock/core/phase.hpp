@@ -16,7 +16,6 @@ enum class PhaseName {
   sort,
   particles_to_grid,
   exchange,
-  average,
   grid_update,
   contact,
   grid_to_particles,

@@ -53,6 +53,13 @@ struct HistoryRow {
   std::optional<ContactRow> contact;  ///< only in runs of several grains
 };
 
+/// All heat so far, J (J/m in plane strain): plastic, viscous, filter, wall, contact and friction.
+double all_heat(const HistoryRow& row);
+
+/// Share of all heat that the numerics made, of the filter of the transfer and of inelastic
+/// contact; 0 without heat.
+double numerical_share(const HistoryRow& row);
+
 /// First line of the file, without its end of line. `grains`: with the columns of contact.
 std::string history_header(int dimension, bool grains);
 

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "poreshock/core/tensor.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 
 /// Which optional columns a scene needs; columns it does not need stay empty.
 struct ParticleOptions {
-  bool affine = true;           ///< APIC
+  bool affine = true;           ///< transfers with affine modes
+  bool quadratic = false;       ///< transfers with modes of second order
   bool back_stress = false;     ///< kinematic hardening
   bool conducted_heat = false;  ///< heat conduction in paper mode
   bool failed = false;          ///< some material has a spall strength
@@ -27,12 +29,15 @@ struct Particles {
   ParticleOptions options;
   std::vector<std::int64_t> id;  ///< from the sample, unique, never changes
   std::vector<std::int32_t> grain;
-  std::vector<std::int32_t> material;                 ///< index into the scene's materials
-  std::array<std::vector<double>, Dim> position;      ///< m, relative to the grid origin
-  std::array<std::vector<double>, Dim> velocity;      ///< m/s
-  std::array<std::vector<double>, Dim * Dim> affine;  ///< 1/s, row major, APIC velocity gradient
-  std::vector<double> mass;                           ///< kg (per metre of depth in plane strain)
-  std::vector<double> density;                        ///< kg/m^3
+  std::vector<std::int32_t> material;             ///< index into the scene's materials
+  std::array<std::vector<double>, Dim> position;  ///< m, relative to the grid origin
+  std::array<std::vector<double>, Dim> velocity;  ///< m/s
+  std::array<std::vector<double>, Dim * Dim>
+      affine;  ///< 1/s, row major, velocity gradient of its own
+  /// m/s, amplitudes of r_a r_b for each component, of norm 1 under N; see second_modes
+  std::array<std::vector<double>, Dim * second_modes<Dim>> quadratic;
+  std::vector<double> mass;              ///< kg (per metre of depth in plane strain)
+  std::vector<double> density;           ///< kg/m^3
   std::vector<double> pressure;          ///< Pa, equation of state, compression positive
   std::vector<double> viscous_pressure;  ///< Pa, artificial viscosity q >= 0
   std::vector<double> internal_energy;   ///< J/kg
@@ -61,6 +66,7 @@ void for_each_column(ParticlesType& particles, Visitor&& visit) {
   each("position", particles.position);
   each("velocity", particles.velocity);
   if (particles.options.affine) each("affine", particles.affine);
+  if (particles.options.quadratic) each("quadratic", particles.quadratic);
   visit("mass", -1, particles.mass);
   visit("density", -1, particles.density);
   visit("pressure", -1, particles.pressure);

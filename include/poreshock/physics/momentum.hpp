@@ -6,13 +6,10 @@
 
 namespace poreshock {
 
-/// From nodal sums (SumLane) to motion (MotionLane): v = p/m, v' = v + dt (f/m + b) (paper eq 13),
-/// and with `projected` (PIC, APIC) the heat per mass that the projection of the particles onto the
-/// grid loses. Empty nodes stay zero. Body-force work and filter heat of owned nodes are added to
-/// the ledger. Not collective.
+/// From nodal sums (SumLane) to motion (MotionLane): v = p/m, v' = v + dt (f/m + b) (paper eq 13).
+/// Empty nodes stay zero. Not collective.
 template <int Dim>
-void integrate_momentum(const Vector<Dim>& body_force, bool projected, double dt, SlabGrid& grid,
-                        NodeLedger& ledger);
+void integrate_momentum(const Vector<Dim>& body_force, double dt, SlabGrid& grid);
 
 /// Adds the work and impulse of the body force over this step on owned nodes. Call after the
 /// boundaries, only when there is a body force. Not collective.

@@ -11,7 +11,6 @@ namespace poreshock {
 struct NodeLedger {
   double inverse_energy_quantum = 1.0;
   double inverse_momentum_quantum = 1.0;
-  Int128 filter_heat = 0;
   Int128 wall_heat = 0;
   Int128 contact_heat = 0;   ///< of the normal impulses between grains
   Int128 friction_heat = 0;  ///< of the tangential impulses between grains and at walls

@@ -41,9 +41,6 @@ NodeSides sides_of_node(const QuarterSums& quarters);
 /// Sides of all nodes in [first_row, node_end), row after row. Not collective.
 std::vector<NodeSides> find_sides(const std::vector<SlabGrid*>& surfaces);
 
-/// At every node, each quarter gets the sum of all lanes over its side. Not collective.
-void share_sums(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids);
-
 /// At every node, the sums of the first side go to the first grid, those of the second to the
 /// second one; a side that is not there leaves zeros. Not collective.
 void join_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids);

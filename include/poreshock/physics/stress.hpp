@@ -17,10 +17,9 @@ template <int Dim>
 struct StressSettings {
   Thermal thermal = Thermal::conserving;
   Viscosity viscosity;
-  bool averaging = false;
   double cell = 0.0;  ///< m, length of the artificial viscosity
   double cfl = 0.5;
-  double stiffness = 0.0;  ///< of the shape function, where a lone particle bounds the step; or 0
+  double stiffness = 0.0;  ///< per axis and squared cell, of a particle alone; 0 without a bound
   Vector<Dim> grid_velocity = Vector<Dim>::Zero();
   double inverse_energy_quantum = 1.0;
 };
@@ -35,11 +34,11 @@ struct StressReport {
   Int128 viscous_heat = 0;             ///< quanta
 };
 
-/// What a particle without neighbours bounds the step to, as sound speeds per cell; 0 where the
-/// stiffness is. Alone it moves nodes that are as light as their weight, so all of it swings, at
-/// omega^2 = Dim stiffness (K + G/3 or, in 3-D, K)/rho per cell^2, and APIC keeps that motion: a
-/// step of 2/omega (sqrt(1 + zeta^2) - zeta) is stable, zeta the damping of the linear viscosity.
-/// Among neighbours it is less stiff. Not collective.
+/// What a particle without neighbours bounds the step to, as sound speeds per cell. Alone it moves
+/// nodes that are as light as their weight, so all of it swings: with the stiffness S, elastic e =
+/// Dim S (K + G/3 or, in 3-D, K)/(rho c^2) and viscous v = Dim S C_l, the force of the state before
+/// a step of h/(r c) is stable while e/r^2 + 2 v/r < 4. Among neighbours it is less stiff. Not
+/// collective.
 template <int Dim>
 double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& material);
 

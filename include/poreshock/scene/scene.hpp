@@ -22,7 +22,7 @@ enum class GapTest { volume, none };
 enum class ContactNormal { gradients, regression };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
 enum class ShapeFunction { linear, gimp, quadratic, cubic };
-enum class VelocityTransfer { pic, flip, apic };
+enum class VelocityTransfer { pic, flip, apic, aflip, iapic, polypic, polyflip, ipolypic };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class MapLattice { eulerian, lagrangian };
 enum class MapVoids { black, white, fill, exclude };
@@ -114,16 +114,16 @@ struct Loading {
 
 struct Transfer {
   ShapeFunction shape = ShapeFunction::cubic;
-  VelocityTransfer velocity = VelocityTransfer::apic;
-  double damping = 0.0;      ///< 1/s, FLIP only
-  double averaging = 1.0;    ///< 0 (off) ... 1 share of the averaged dilatation
+  VelocityTransfer velocity = VelocityTransfer::polyflip;
+  double damping = 0.01;     ///< decay of the residual while sound crosses a cell
   double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
   bool operator==(const Transfer&) const = default;
 };
 
 struct Viscosity {
-  double linear = 0.6;
-  double quadratic = 8.0;
+  double linear = 1.0;
+  double quadratic = 5.0;
+  bool limited = true;  ///< acts only where the velocity jumps; cubic splines only
   bool operator==(const Viscosity&) const = default;
 };
 
@@ -143,7 +143,7 @@ struct Contact {
 
 struct TimeControl {
   double end = 0.0;  ///< s
-  double cfl = 0.5;
+  double cfl = 1.0;
   std::int64_t max_steps = 0;  ///< 0 = no limit
   bool sleep = true;           ///< rows that no wave has reached only move
   bool operator==(const TimeControl&) const = default;

@@ -18,8 +18,7 @@ namespace poreshock {
 struct VelocityField {
   CellOrder cells;
   SlabGrid* grid = nullptr;
-  SlabGrid* averages = nullptr;  ///< only with averaged dilatation
-  SlabGrid* surfaces = nullptr;  ///< scratch of the contact step, the averages where there are some
+  SlabGrid* surfaces = nullptr;  ///< scratch of the contact step
 };
 
 /// All fields of a run. Not part of its state: nodal sums of a grain do not depend on its colour.
@@ -73,10 +72,6 @@ std::vector<std::int32_t> particle_colours(const Simulation<Dim>& sim);
 template <int Dim>
 void mark_surfaces(Simulation<Dim>& sim);
 
-/// Sums of the averages of all fields, before they are divided: shared by those that move as one.
-template <int Dim>
-void share_averages(Simulation<Dim>& sim);
-
 /// With self-contact: puts the nodal sums of all fields on the two of for_each_side, and back.
 template <int Dim>
 void join_fields(Simulation<Dim>& sim);
@@ -90,23 +85,23 @@ ContactRow contact_row(const Simulation<Dim>& sim);
 /// Gives the grids of all fields back, before the slabs change.
 void release_fields(GrainFields& fields);
 
-/// Calls visit(cells, grid, averages) for every velocity field.
+/// Calls visit(cells, grid) for every velocity field.
 template <int Dim, class Visit>
 void for_each_field(Simulation<Dim>& sim, Visit&& visit) {
-  if (sim.grain_fields.fields.empty()) return visit(sim.cells, *sim.grid, sim.averages.get());
+  if (sim.grain_fields.fields.empty()) return visit(sim.cells, *sim.grid);
   for (VelocityField& field : sim.grain_fields.fields) {
-    visit(field.cells, *field.grid, field.averages);
+    visit(field.cells, *field.grid);
   }
 }
 
-/// Calls visit(cells, grid, averages) for every velocity field that moves by itself: all of them,
+/// Calls visit(cells, grid) for every velocity field that moves by itself: all of them,
 /// or the two sides of self-contact.
 template <int Dim, class Visit>
 void for_each_side(Simulation<Dim>& sim, Visit&& visit) {
   if (!sim.scene.contact.self) return for_each_field(sim, visit);
   for (int side = 0; side < 2; ++side) {
     const VelocityField& field = sim.grain_fields.fields[static_cast<std::size_t>(side)];
-    visit(field.cells, *field.grid, field.averages);
+    visit(field.cells, *field.grid);
   }
 }
 

@@ -16,6 +16,7 @@ struct Guards {
   std::int64_t wall_crossing = 0;  ///< particle put back onto a wall
   std::int64_t temperature = 0;    ///< temperature floored in output
   std::int64_t pixel = 0;          ///< particle cut, held or left out in a pixel map
+  std::int64_t negative_heat = 0;  ///< heat of the transfer below zero beyond rounding
 };
 
 /// Cumulative sums of this rank since the start; only the sum over all ranks has a meaning.
@@ -24,8 +25,9 @@ struct Ledger {
   double momentum_quantum = 1.0;  ///< kg m/s
   NodeLedger nodes;
   Int128 viscous_heat = 0;
-  Int128 transfer_heat = 0;  ///< filter heat of grid to particles
-  Int128 conduction = 0;     ///< heat gained by conduction: round-off
+  Int128 transfer_heat = 0;    ///< filter heat
+  std::int64_t shortened = 0;  ///< particle-steps whose affine part lost a tenth to it
+  Int128 conduction = 0;       ///< heat gained by conduction: round-off
   Int128 escaped_energy = 0;
   Int128 escaped_mass = 0;  ///< quanta of mass, see mass_quantum
   std::array<Int128, 3> escaped_momentum{};

@@ -30,6 +30,7 @@ struct Simulation {
   MPI_Comm communicator = MPI_COMM_NULL;
   std::vector<Material> materials;
   StressSettings<Dim> stress_settings;
+  double sound_speed = 0.0;  ///< m/s, the largest of the materials at rest, longitudinal
   Vector<Dim> body_force = Vector<Dim>::Zero();
   Particles<Dim> particles;
   Clock clock;
@@ -38,11 +39,10 @@ struct Simulation {
   std::vector<std::uint32_t> cell_scratch;
   StepData<Dim> step_data;
   std::unique_ptr<SlabGrid> grid;
-  std::unique_ptr<SlabGrid> averages;  ///< only with averaged dilatation
-  GrainFields grain_fields;            ///< only used where grains of two colours exist
-  std::unique_ptr<SlabGrid> heat;      ///< only with heat conduction
-  HeatFlow<Dim> heat_flow;             ///< empty without heat conduction
-  double conduction_limit = 0.0;       ///< s, infinite without heat conduction
+  GrainFields grain_fields;        ///< only used where grains of two colours exist
+  std::unique_ptr<SlabGrid> heat;  ///< only with heat conduction
+  HeatFlow<Dim> heat_flow;         ///< empty without heat conduction
+  double conduction_limit = 0.0;   ///< s, infinite without heat conduction
   PhaseTable phases;
   WorkMeter work;
   SampleReport sample;

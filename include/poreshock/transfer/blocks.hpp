@@ -11,18 +11,31 @@
 
 namespace poreshock {
 
-/// What a sweep needs of the weights.
-enum class WeightParts { values, all };
+/// What a sweep needs of the weights: with `modes` also the norms of the modes of second order.
+enum class WeightParts { values, all, modes };
 
 /// Weights of a particle along its axes, four nodes an axis, times `scale` each: value, slope per
 /// cell, and offset in cells. In memory, where one number is spread over lanes as it loads.
 template <int Dim, class Spline, WeightParts Parts = WeightParts::all>
 struct BlockWeights {
   static constexpr std::size_t size = Dim == 2 ? lane_count : 2 * lane_count;
-  static constexpr std::size_t others = Parts == WeightParts::all ? size : 0;
+  static constexpr std::size_t others = Parts == WeightParts::values ? 0 : size;
   alignas(64) std::array<double, size> value;
   std::array<double, others> slope, offset;
+  /// 1/sqrt(K) of r_a^2 - D, see mode_norms
+  std::array<double, Parts == WeightParts::modes ? 4 : 0> inverse_norm;
 };
+
+/// 1/sqrt(2/9 - f^2 (1 - f)^2) of two places in a cell.
+inline void inverse_norms(double f, double g, double* result) {
+  typedef double Pair __attribute__((vector_size(16)));
+  const Pair place = {f, g};
+  const Pair product = place * (1.0 - place);
+  const Pair square = 2.0 / 9.0 - product * product;
+  const Pair inverse = 1.0 / Pair{std::sqrt(square[0]), std::sqrt(square[1])};
+  result[0] = inverse[0];
+  result[1] = inverse[1];
+}
 
 template <int Dim, WeightParts Parts, class Spline>
 inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
@@ -33,12 +46,19 @@ inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
   BlockWeights<Dim, Spline, Parts> w;
   const auto store = [&w](const AxisLanes& lanes, int first) {
     *reinterpret_cast<Lanes*>(w.value.data() + first) = lanes.value;
-    if constexpr (Parts == WeightParts::all) {
+    if constexpr (Parts != WeightParts::values) {
       *reinterpret_cast<Lanes*>(w.slope.data() + first) = lanes.slope;
       *reinterpret_cast<Lanes*>(w.offset.data() + first) = lanes.offset;
     }
   };
   for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
+  if constexpr (Parts == WeightParts::modes) {
+    const auto local = [&](int a) {
+      return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
+    };
+    inverse_norms(local(0), local(1), w.inverse_norm.data());
+    if constexpr (Dim == 3) inverse_norms(local(2), local(2), w.inverse_norm.data() + 2);
+  }
   return w;
 }
 
@@ -74,8 +94,8 @@ inline Lanes value_in(const BlockWeights<Dim, Spline, Parts>& w, int b) {
 }
 
 /// Slopes along axis a at the nodes of block b, per cell.
-template <int Dim, class Spline>
-inline Lanes slope_in(const BlockWeights<Dim, Spline>& w, int a, int b) {
+template <int Dim, class Spline, WeightParts Parts>
+inline Lanes slope_in(const BlockWeights<Dim, Spline, Parts>& w, int a, int b) {
   const Lanes plane =
       along_lines(a == 0 ? w.slope : w.value) * across_lines<Spline>(a == 1 ? w.slope : w.value, b);
   if constexpr (Dim == 2) {
@@ -85,32 +105,12 @@ inline Lanes slope_in(const BlockWeights<Dim, Spline>& w, int a, int b) {
   }
 }
 
-/// The nodes of one stencil in blocks, of chosen lanes, loaded run by run in row order.
-template <int Dim, class Spline, int Quantities>
-struct BlockReader {
-  PlanarWindow<Dim, Spline, Quantities> window;
-  PlanarRows<Dim, Spline, Quantities> rows{};
-  std::array<BlockLanes<Dim, Spline>, Quantities> nodes;
-  int row = -1;
-
-  BlockReader(const SlabGrid& grid, const std::array<int, Quantities>& lanes)
-      : window(grid, lanes) {}
-
-  void load(int stencil_row, int lateral) {
-    if (stencil_row != row) rows = window.at(row = stencil_row);
-    for (int q = 0; q < Quantities; ++q) {
-      for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) nodes[q][b] = rows.load(q, b, lateral);
-    }
-  }
-};
-
 /// Scatters in blocks: accumulate(p, weights, sums) adds one particle to sums[quantity][block].
-/// begin_run(row, lateral) comes before each run. Sums of a run start at +0 and are added to the
-/// row buffer, that to the grid. Not collective.
+/// Sums of a run start at +0 and are added to the row buffer, that to the grid. Not collective.
 template <int Dim, int Quantities, WeightParts Parts = WeightParts::all, class Spline,
-          class BeginRun, class Accumulate>
+          class Accumulate>
 void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                    BeginRun&& begin_run, Accumulate&& accumulate, SlabGrid& grid) {
+                    Accumulate&& accumulate, SlabGrid& grid) {
   constexpr int blocks = stencil_blocks<Dim, Spline>;
   const GridShape& shape = grid.shape();
   const double inverse_cell = 1.0 / shape.cell;
@@ -121,7 +121,6 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
         alignas(64) Lanes sums[Quantities][blocks] = {};
-        begin_run(row, lateral);
         for_each_weighted(
             first, last,
             [&](std::uint32_t p) {
@@ -153,24 +152,13 @@ void scatter_values(const Spline& spline, const Particles<Dim>& particles, const
                     Values&& values, SlabGrid& grid) {
   constexpr WeightParts parts = WeightParts::values;
   scatter_blocks<Dim, Quantities, parts>(
-      spline, particles, cells, [](int, int) {},
+      spline, particles, cells,
       [&](std::uint32_t p, const BlockWeights<Dim, Spline, parts>& w, auto& sums) {
         std::array<double, Quantities> value = values(p);
         for (double& x : value) x = unscaled<Dim, Spline>(x);
         add_values(w, value, sums);
       },
       grid);
-}
-
-/// Sum of weight times value over the nodes of a stencil.
-template <int Dim, class Spline>
-inline double interpolate(const BlockWeights<Dim, Spline>& w,
-                          const BlockLanes<Dim, Spline>& nodes) {
-  Lanes sum{};
-  for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) {
-    sum = fused(value_in<Dim, Spline>(w, b), nodes[b], sum);
-  }
-  return unscaled<Dim, Spline>(sum_of_lanes(sum));
 }
 
 }  // namespace poreshock

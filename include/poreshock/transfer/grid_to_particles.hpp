@@ -1,5 +1,5 @@
 #pragma once
-// Nodes to particles: velocity, position, affine velocity, velocity gradients and heat.
+// Nodes to particles: modes of the velocity, position, velocity gradients and heat.
 
 #include "poreshock/core/fixed_point.hpp"
 #include "poreshock/grid/slab_grid.hpp"
@@ -9,29 +9,41 @@
 
 namespace poreshock {
 
-/// Replaces the mass lane of every node by the kinetic term of the transfer's filter heat and fills
-/// the periodic images. `damped` is the share of velocity noise FLIP removes this step. Not
-/// collective.
+/// What the sweep needs besides nodes and particles.
 template <int Dim>
-void prepare_gather(const Transfer& transfer, double damped, SlabGrid& grid);
+struct ParticleMotion {
+  double dt = 0.0;
+  double lost = 1.0;  ///< share of the residual that the step takes, of lost_share
+  Vector<Dim> grid_velocity = Vector<Dim>::Zero();
+  bool limited = false;  ///< artificial viscosity
+  double inverse_energy_quantum = 1.0;
+  double least_heat = 0.0;  ///< J/kg; less is rounding, which shortens nothing
+};
 
-/// Updates velocity, affine velocity and position of the particles of `rows` and sets
+/// What the transfer of a step did, on this rank.
+struct TransferReport {
+  Int128 heat = 0;             ///< quanta
+  std::int64_t negative = 0;   ///< particles whose heat was negative beyond rounding
+  std::int64_t shortened = 0;  ///< particles whose affine part had to be shortened by a tenth
+};
+
+/// Replaces the mass lane of every node by |u' - u|^2/2 + lost u.u', the node's part of the heat of
+/// the transfer, and fills the periodic images. Not collective.
+template <int Dim>
+void prepare_gather(double lost, SlabGrid& grid);
+
+/// Updates the modes of the velocity and the position of the particles of `rows` and sets
 /// step.gradient, step.rate and step.heat, in canonical order from the first of them. Positions
-/// advance relative to the grid, which moves with grid_velocity. With averaging
-/// step.dilatation_end and dilatation_mid are set too, own and averaged mixed by the share;
-/// `averages` then holds what average_dilatation left, else it is null. The filter heat of this
-/// sweep (J) is added to filter_heat in quanta. Source of the closures: FLIP and APIC kinetic
-/// energy balances, sum_p m_p v_p . dv_p = sum_i m_i v_i . dv_i. Not collective.
+/// advance relative to the grid. With the limited artificial viscosity step.viscous_linear and
+/// viscous_quadratic are set. What the transfer loses of the kinetic energy of a particle is its
+/// heat. Not collective.
 template <int Dim>
-void grid_to_particles(const SlabGrid& grid, const SlabGrid* averages, const CellOrder& cells,
-                       RowRange rows, const Transfer& transfer, const Vector<Dim>& grid_velocity,
-                       double dt, double inverse_quantum, Particles<Dim>& particles,
-                       StepData<Dim>& step, Int128& filter_heat);
+void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, RowRange rows,
+                       const Transfer& transfer, const ParticleMotion<Dim>& how,
+                       Particles<Dim>& particles, StepData<Dim>& step, TransferReport& report);
 
-/// Share of the velocity noise that FLIP with damping rate `damping` (1/s) removes in one step.
-inline double damped_share(const Transfer& transfer, double dt) {
-  const double x = transfer.damping * dt;
-  return x / (1.0 + x);
-}
+/// Share of its residual that a particle loses in a step: lambda = 1 - 1/(1 + beta c dt/cell), c
+/// the sound speed; 1 with the transfers that keep none.
+double lost_share(const Transfer& transfer, double sound_speed, double cell, double dt);
 
 }  // namespace poreshock

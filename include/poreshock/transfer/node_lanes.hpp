@@ -7,23 +7,20 @@ namespace poreshock {
 template <int Dim>
 struct SumLane {
   static constexpr int mass = 0;
-  static constexpr int momentum = 1;           ///< Dim numbers
-  static constexpr int force = 1 + Dim;        ///< Dim numbers
-  static constexpr int kinetic = 1 + 2 * Dim;  ///< energy of the affine particles (APIC)
+  static constexpr int momentum = 1;     ///< Dim numbers
+  static constexpr int force = 1 + Dim;  ///< Dim numbers
+  static constexpr int count = 1 + 2 * Dim;
 };
 
 /// Nodal motion, from integrate_momentum to grid_to_particles.
 template <int Dim>
 struct MotionLane {
-  static constexpr int end_velocity = 0;       ///< Dim numbers
-  static constexpr int start_velocity = Dim;   ///< Dim numbers
-  static constexpr int heat = 2 * Dim;         ///< J/kg
-  static constexpr int mass = 2 * Dim + 1;     ///< until prepare_gather
-  static constexpr int kinetic = 2 * Dim + 1;  ///< J/kg, after prepare_gather
-  /// 1/s, averaged div v' and div v_mid, after average_dilatation. In 3-D no lane is left for them
-  /// and they stay on the grid of the averages.
-  static constexpr int dilatation_end = 2 * Dim + 2;
-  static constexpr int dilatation_mid = 2 * Dim + 3;
+  static constexpr int end_velocity = 0;      ///< Dim numbers
+  static constexpr int start_velocity = Dim;  ///< Dim numbers
+  static constexpr int heat = 2 * Dim;        ///< J/kg
+  static constexpr int mass = 2 * Dim + 1;    ///< until prepare_gather
+  static constexpr int kinetic =
+      2 * Dim + 1;  ///< J/kg, its part of the heat of the transfer, after
 };
 
 /// Surface of the grain of one velocity field at a node, for contact.
@@ -41,14 +38,6 @@ template <int Dim>
 struct CollisionLane {
   static constexpr int change = 0;  ///< m/s, of the end velocity; Dim numbers
   static constexpr int end = Dim;   ///< m/s, end velocity after it; Dim numbers
-};
-
-/// Nodal averages (averaged dilatation), of the pressure or of the dilatation.
-struct AverageLane {
-  static constexpr int volume = 0;
-  static constexpr int pressure = 1;  ///< volume x (p + q), then the average
-  static constexpr int end = 1;       ///< volume x div v', then the average
-  static constexpr int mid = 2;       ///< volume x div v_mid, then the average
 };
 
 }  // namespace poreshock

@@ -1,5 +1,5 @@
 #pragma once
-// Particles to nodes: mass, momentum, internal force and the kinetic energy of affine particles.
+// Particles to nodes: mass, momentum and internal force.
 
 #include "poreshock/grid/slab_grid.hpp"
 #include "poreshock/particles/cell_order.hpp"
@@ -8,12 +8,10 @@
 
 namespace poreshock {
 
-/// Sums SumLane of every node from the particles of this slab (paper eqs 10, 13, 14). With
-/// `averages` (of average_pressure, null without averaging) the pressure P in the force is
-/// (1 - share) (p + q) + share A(p + q), else p + q. After it the grid awaits exchange(). Not
-/// collective.
+/// Sums SumLane of every node from the particles of this slab (paper eqs 10, 13, 14). After it the
+/// grid awaits exchange(). Not collective.
 template <int Dim>
 void particles_to_grid(const Particles<Dim>& particles, const CellOrder& cells,
-                       const Transfer& transfer, const SlabGrid* averages, SlabGrid& grid);
+                       const Transfer& transfer, SlabGrid& grid);
 
 }  // namespace poreshock

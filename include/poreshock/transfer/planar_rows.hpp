@@ -41,15 +41,6 @@ struct PlanarRows {
     }
   }
 
-  Lanes load(int q, int b, int lateral) const {
-    const int j = 2 * (b % line_pairs<Spline>), k = b / line_pairs<Spline>;
-    const double* low = line(q, j, k) + lateral;
-    // The line that an odd width lacks has no weight; the one before stands in for it.
-    const double* high = j + 1 < width ? line(q, j + 1, k) + lateral : low;
-    return join(*reinterpret_cast<const HalfLanes*>(low),
-                *reinterpret_cast<const HalfLanes*>(high));
-  }
-
   void add(const Lanes& value, int q, int b, int lateral) const {
     const int j = 2 * (b % line_pairs<Spline>), k = b / line_pairs<Spline>;
     *reinterpret_cast<HalfLanes*>(line(q, j, k) + lateral) += low_half(value);
@@ -63,61 +54,6 @@ struct PlanarRows {
 inline std::ptrdiff_t planar_pitch(const GridShape& shape) {
   return (shape.row_size + 2 * lane_count - 1) / lane_count * lane_count;
 }
-
-/// Planar copies of the node rows that a stencil row sees, of chosen lanes of the nodes.
-template <int Dim, class Spline, int Quantities>
-class PlanarWindow {
- public:
-  /// lanes: which lane of a node becomes which quantity.
-  PlanarWindow(const SlabGrid& grid, const std::array<int, Quantities>& lanes)
-      : grid_(grid),
-        lanes_(lanes),
-        pitch_(planar_pitch(grid.shape())),
-        values_(static_cast<std::size_t>(Spline::width * Quantities * pitch_), 0.0),
-        next_(grid.first_row()) {}
-
-  /// Lines for a stencil row; rows come in ascending order.
-  PlanarRows<Dim, Spline, Quantities> at(int row) {
-    next_ = std::max(next_, row);
-    for (; next_ < row + Spline::width; ++next_) copy(next_);
-    PlanarRows<Dim, Spline, Quantities> result;
-    result.line_size = grid_.shape().nodes[0];
-    for (int q = 0; q < Quantities; ++q) {
-      for (int k = 0; k < Spline::width; ++k) result.rows[q][k] = target(q, row + k);
-    }
-    return result;
-  }
-
- private:
-  double* target(int q, int row) {
-    return values_.data() + ((row % Spline::width) * Quantities + q) * pitch_;
-  }
-
-  void copy(int row) {
-    const Lanes* nodes = grid_.row(row);
-    const int count = grid_.shape().row_size;
-    double* targets[Quantities];
-    for (int q = 0; q < Quantities; ++q) targets[q] = target(q, row);
-    int i = 0;
-    for (; i + lane_count <= count; i += lane_count) {
-      Lanes block[lane_count];
-      for (int k = 0; k < lane_count; ++k) block[k] = nodes[i + k];
-      transpose(block);
-      for (int q = 0; q < Quantities; ++q) {
-        *reinterpret_cast<Lanes*>(targets[q] + i) = block[lanes_[q]];
-      }
-    }
-    for (; i < count; ++i) {
-      for (int q = 0; q < Quantities; ++q) targets[q][i] = nodes[i][lanes_[q]];
-    }
-  }
-
-  const SlabGrid& grid_;
-  std::array<int, Quantities> lanes_;
-  std::ptrdiff_t pitch_;
-  std::vector<double> values_;
-  int next_;
-};
 
 /// Row buffer of planar sums; quantity q becomes lane q of the nodes.
 template <int Dim, class Spline, int Quantities>

@@ -9,9 +9,10 @@
 #include <array>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "poreshock/core/lanes.hpp"
-#include "poreshock/scene/scene.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 
@@ -59,6 +60,7 @@ inline AxisLanes hat_lanes(const std::array<double, Width>& value,
 
 /// Hat function: 2 nodes.
 struct LinearHat {
+  static constexpr ShapeFunction kind = ShapeFunction::linear;
   static constexpr int width = 2;
   static constexpr double scale = 1.0;
 
@@ -71,6 +73,7 @@ struct LinearHat {
 /// Uniform GIMP: the hat averaged over the particle's edge at the start (Bardenhagen & Kober, CMES
 /// 5 (2004) 477), 3 nodes.
 struct UniformGimp {
+  static constexpr ShapeFunction kind = ShapeFunction::gimp;
   static constexpr int width = 3;
   static constexpr double scale = 1.0;
   double half_length = 0.25;  ///< cells, at most 1/2
@@ -99,6 +102,7 @@ struct UniformGimp {
 
 /// Quadratic B-spline: 3 nodes, sum of N (x_i - x)^2 = cell^2 / 4.
 struct QuadraticSpline {
+  static constexpr ShapeFunction kind = ShapeFunction::quadratic;
   static constexpr int width = 3;
   static constexpr double scale = 2.0;
   static constexpr double inverse_inertia = 4.0;
@@ -115,6 +119,7 @@ struct QuadraticSpline {
 
 /// Cubic B-spline: 4 nodes, sum of N (x_i - x)^2 = cell^2 / 3.
 struct CubicSpline {
+  static constexpr ShapeFunction kind = ShapeFunction::cubic;
   static constexpr int width = 4;
   static constexpr double scale = 6.0;
   static constexpr double inverse_inertia = 3.0;
@@ -193,11 +198,6 @@ inline AxisLanes weights_of_two(const Spline& spline, double f, double g) {
           join(low_half(a.offset), high_half(b.offset))};
 }
 
-/// True where particle velocities are replaced by the grid's, so that nodes lose kinetic energy.
-inline bool projects(VelocityTransfer velocity) {
-  return velocity == VelocityTransfer::apic || velocity == VelocityTransfer::pic;
-}
-
 /// Splines take both axes at once.
 template <class Spline>
 requires is_spline<Spline>
@@ -218,6 +218,25 @@ inline void with_shape(const Transfer& transfer, Run&& run) {
     case ShapeFunction::cubic:
       return run(CubicSpline{});
   }
+}
+
+/// Calls run<modes, keeps>(shape function) for the transfer and the shape that the scene asks for.
+template <class Run>
+inline void with_scheme(const Transfer& transfer, Run&& run) {
+  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
+    const auto try_one = [&]<std::size_t I>() {
+      constexpr const TransferScheme& scheme = transfer_schemes[I];
+      if constexpr (suits(scheme, Spline::kind)) {
+        if (scheme.velocity == transfer.velocity) {
+          run.template operator()<scheme.modes, scheme.keeps>(spline);
+        }
+      }
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (try_one.template operator()<I>(), ...);
+    }
+    (std::make_index_sequence<transfer_schemes.size()>{});
+  });
 }
 
 /// Lowest node of the stencil at s along an axis of `nodes` nodes, for a stencil of `width` nodes.

@@ -18,17 +18,18 @@ struct StepData {
   std::array<std::vector<double>, Dim * Dim> gradient;   ///< 1/s, of the new velocity, row major
   std::array<std::vector<double>, rate_size<Dim>> rate;  ///< 1/s, symmetric gradient at mid-step
   std::vector<double> heat;                              ///< J/kg, filter, wall and contact heat
-  std::vector<double> dilatation_end, dilatation_mid;    ///< 1/s, averaged; only with averaging
+  /// Shares 0 ... 1 of the artificial viscosity that act; 1 where it is not limited.
+  std::vector<double> viscous_linear, viscous_quadratic;
 };
 
 /// Makes room for `count` particles in canonical order.
 template <int Dim>
-void resize_ordered(std::size_t count, bool averaging, StepData<Dim>& step) {
+void resize_ordered(std::size_t count, StepData<Dim>& step) {
   for (auto& column : step.gradient) column.resize(count);
   for (auto& column : step.rate) column.resize(count);
   step.heat.resize(count);
-  step.dilatation_end.resize(averaging ? count : 0);
-  step.dilatation_mid.resize(averaging ? count : 0);
+  step.viscous_linear.resize(count, 1.0);
+  step.viscous_quadratic.resize(count, 1.0);
 }
 
 /// Symmetric part of a velocity gradient g[axis][direction], in the order of StepData::rate.
