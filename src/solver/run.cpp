@@ -57,19 +57,19 @@ void write_scene_file(const std::string& folder, const Simulation<Dim>& sim) {
   write_text(path, sim.scene_text);
 }
 
-/// Where the heat of the run came from, in percent; with a warning where the numerics made too
-/// much.
-void show_heat(const HistoryRow& row, const Scene& scene) {
+/// Where the heat of the run came from, in percent, and how often the transfer shortened modes that
+/// would have made it negative; with a warning where the numerics made too much.
+void show_heat(const HistoryRow& row, const Scene& scene, long long shortened) {
   constexpr double most = 0.15;
   const double heat = all_heat(row);
   if (!(heat > 0.0)) return;
   const auto percent = [&](double part) { return 100.0 * part / heat; };
   std::printf(
       "heat: plastic %.1f %%, viscous %.1f %%, wall and friction %.1f %%; numerical dissipation "
-      "%.1f %% (filter %.1f, contact %.1f)\n",
+      "%.1f %% (filter %.1f, contact %.1f); modes shortened %lld times\n",
       percent(row.plastic_work), percent(row.viscous_heat),
       percent(row.wall_heat + row.friction_heat), 100.0 * numerical_share(row),
-      percent(row.filter_heat), percent(row.contact_heat));
+      percent(row.filter_heat), percent(row.contact_heat), shortened);
   if (numerical_share(row) <= most) return;
   std::printf(
       "warning: numerical dissipation is %.0f %% of all heat; above 15 %% the cells are too coarse "
@@ -161,7 +161,7 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
       energy_status(sim, recorder).drift, count(0), count(1), count(2), count(3), count(4),
       count(5), count(6), static_cast<double>(escaped[0]) * mass_quantum(l),
       Dim == 2 ? "kg/m" : "kg", static_cast<unsigned long long>(bits));
-  show_heat(recorder.last_row, sim.scene);
+  show_heat(recorder.last_row, sim.scene, count(7));
   for (const std::string& name : recorder.backlog.left_out) {
     std::printf("left out: %s\n", name.c_str());
   }
