@@ -223,6 +223,13 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
   constexpr double day = 86400.0;
   std::vector<std::string> warnings;
   warn_beat(scene, estimate, warnings);
+  if (scene.transfer.velocity == VelocityTransfer::polyflip) {
+    warnings.push_back(
+        "With transfer.velocity = \"polyflip\" a particle may run away where a jet meets the far "
+        "wall "
+        "of a void, and the run then stops. Set transfer.velocity = \"aflip\" for samples with "
+        "voids.");
+  }
   if (scene.transfer.shape == ShapeFunction::linear) {
     warnings.push_back(
         "With transfer.shape = \"linear\" runs stop where voids collapse: hats let forces jump "

@@ -25,11 +25,8 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
   }
   choice(visitor, "shape", transfer.shape, shapes,
          {"between particles and grid: hat, uniform GIMP, quadratic or cubic B-spline"});
-  // The richest that the shape carries.
-  visitor.fallback(transfer.velocity, is_hat(transfer.shape) ? VelocityTransfer::flip
-                                      : transfer.shape == ShapeFunction::quadratic
-                                          ? VelocityTransfer::aflip
-                                          : VelocityTransfer::polyflip);
+  visitor.fallback(transfer.velocity,
+                   is_hat(transfer.shape) ? VelocityTransfer::flip : VelocityTransfer::aflip);
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
   visitor.fallback(transfer.damping, scheme_of(transfer.velocity).damping);
   visitor.number("damping", transfer.damping,

@@ -63,14 +63,14 @@ TEST(Scenes, DefaultsOfTheScheme) {
     expect_round_trip(scene);
   };
   using V = VelocityTransfer;
-  expect({"transfer.shape=cubic"}, V::polyflip, 0.01, 1.0);
-  expect({"transfer.shape=quadratic"}, V::aflip, 0.1, 1.0);
+  expect({"transfer.shape=cubic"}, V::aflip, 0.05, 1.0);
+  expect({"transfer.shape=quadratic"}, V::aflip, 0.05, 1.0);
   expect({"transfer.shape=gimp"}, V::flip, 0.0, 0.4);
   expect({"transfer.shape=linear"}, V::flip, 0.0, 0.4);
   expect({"transfer.velocity=pic"}, V::pic, 0.0, 0.5);
   expect({"transfer.velocity=flip"}, V::flip, 0.0, 0.4);
   expect({"transfer.velocity=apic"}, V::apic, 0.0, 1.0);
-  expect({"transfer.velocity=aflip"}, V::aflip, 0.1, 1.0);
+  expect({"transfer.velocity=aflip"}, V::aflip, 0.05, 1.0);
   expect({"transfer.velocity=iapic"}, V::iapic, 0.2, 1.0);
   expect({"transfer.velocity=polypic"}, V::polypic, 0.0, 1.0);
   expect({"transfer.velocity=polyflip"}, V::polyflip, 0.01, 1.0);

@@ -43,7 +43,7 @@ inline std::vector<std::string> with_transfer(VelocityTransfer velocity,
 /// Overrides that turn a plain scene into one of the default scheme.
 inline std::vector<std::string> default_scheme() {
   const Viscosity viscosity;
-  return with_transfer(VelocityTransfer::polyflip,
+  return with_transfer(VelocityTransfer::aflip,
                        {"viscosity.limited=true", "viscosity.linear=" + digits(viscosity.linear),
                         "viscosity.quadratic=" + digits(viscosity.quadratic)});
 }

@@ -105,7 +105,7 @@ TEST(QuietSolid, FlipStaysQuietUnderPressure) {
 }
 
 TEST(QuietSolid, PolyFlipStaysQuietUnderPressure) {
-  stay_quiet("quiet_solid_polyflip", 1.01, default_scheme());
+  stay_quiet("quiet_solid_aflip", 1.01, default_scheme());
 }
 
 TEST(QuietSolid, QuadraticAflipStaysQuietUnderPressure) {
@@ -161,7 +161,7 @@ TEST(Translation, CubicFlipFeelsNothing) {
 }
 
 TEST(Translation, PolyFlipFeelsNothing) {
-  translate("translation_polyflip", default_scheme());
+  translate("translation_aflip", default_scheme());
 }
 
 TEST(Translation, QuadraticAflipFeelsNothing) {
@@ -236,7 +236,7 @@ TEST(Spray, FlipParticlesFlyOn) {
 }
 
 TEST(Spray, PolyFlipParticlesFlyOn) {
-  spray("spray_polyflip", default_scheme());
+  spray("spray_aflip", default_scheme());
 }
 
 TEST(Spray, QuadraticApicParticlesFlyOn) {

@@ -170,7 +170,7 @@ TEST(Rotation, ResidualStressFadesAtTheRim) {
 
 TEST(Rotation, PolyFlipOverTenTurns) {
   // What a particle keeps of its velocity alone does not keep the angular momentum exactly.
-  const std::string name = "rotation_polyflip";
+  const std::string name = "rotation_aflip";
   const Turns turns = turn(10, 0.0, default_scheme());
   record(name, "angular_momentum", turns.momentum);
   verify_at_most(name, "von_mises_drift_per_turn_inner_half", std::abs(turns.inner), 1e-3);

@@ -135,7 +135,7 @@ RIM = ("What the crossing of cells takes from the stress at the rim of a turning
        "the cells.")
 KNOWN = {
     ("rotation_cubic_apic", "von_mises_drift_per_turn"): RIM,
-    ("rotation_polyflip", "von_mises_drift_per_turn"): RIM,
+    ("rotation_aflip", "von_mises_drift_per_turn"): RIM,
     ("rotation_residual_stress", "von_mises_drift_per_turn"): RIM,
     ("rotation_residual_stress", "von_mises_drift_per_turn_inner_half"): RIM,
     ("quiet_solid_flip", "temperature_drift_K"): "A rounding of the pressure's work in each of 1e5 steps.",
@@ -152,5 +152,5 @@ KNOWN = {
 } | {(case, figure): LIMITERS for case, figures in {
     "frame_moving_wall": ("stress_error", "density_error", "temperature_rise_error"),
     "frame_upwards": ("stress_error", "density_error", "temperature_rise_error"),
-    "invariance_polyflip": ("mirror_100", "shift_100", "mirror_400", "shift_400")}.items() for figure in figures} | {
+    "invariance_aflip": ("mirror_100", "shift_100", "mirror_400", "shift_400")}.items() for figure in figures} | {
     ("two waves, 5 mm", figure): reason for (case, figure), reason in KNOWN_HARD.items() if case == "two_waves"}

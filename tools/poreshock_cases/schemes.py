@@ -22,17 +22,17 @@ def scheme(name, *settings):
     return Scheme(name, settings)
 
 
-DEFAULT = "default: cubic PolyFLIP"
+DEFAULT = "default: cubic AFLIP"
 SCHEMES = (
     scheme(DEFAULT),
-    scheme("cubic AFLIP", "transfer.velocity=aflip"),
+    scheme("cubic PolyFLIP", "transfer.velocity=polyflip"),
     scheme("cubic iAPIC", "transfer.velocity=iapic"),
     scheme("cubic PolyPIC", "transfer.velocity=polypic"),
     scheme("cubic iPolyPIC", "transfer.velocity=ipolypic"),
     scheme("cubic APIC", "transfer.velocity=apic"),
     scheme("cubic FLIP", "transfer.velocity=flip"),
     scheme("cubic PIC", "transfer.velocity=pic"),
-    scheme("cubic PolyFLIP, unlimited viscosity", "viscosity.limited=false"),
+    scheme("cubic AFLIP, unlimited viscosity", "viscosity.limited=false"),
     scheme("quadratic AFLIP", "transfer.shape=quadratic", "transfer.velocity=aflip"),
     scheme("quadratic APIC", "transfer.shape=quadratic", "transfer.velocity=apic"),
     scheme("lineage (GIMP, FLIP)", "transfer.preset=lineage"),
@@ -41,7 +41,7 @@ PLATE_CELLS = (40 * UM, 20 * UM, 10 * UM)
 VOID_CELLS = (10 * UM, 5 * UM, 2.5 * UM)  # 8, 16 and 32 cells per void diameter
 FINER_PARTICLES = (DEFAULT, "quadratic AFLIP")  # also with 3 x 3 particles per cell
 # Run with the finest cells too.
-FINEST = (DEFAULT, "cubic AFLIP", "cubic PolyPIC", "cubic APIC", "cubic FLIP", "quadratic AFLIP", "lineage (GIMP, FLIP)")
+FINEST = (DEFAULT, "cubic PolyPIC", "cubic APIC", "cubic FLIP", "quadratic AFLIP", "lineage (GIMP, FLIP)")
 
 
 @dataclass(frozen=True)

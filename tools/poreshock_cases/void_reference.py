@@ -8,7 +8,7 @@ import numpy
 from poreshock_cases import collapse
 from poreshock_cases.schemes import UM, kept
 
-SCHEMES = ("polyflip", "aflip", "polypic")
+SCHEMES = ("aflip", "polypic", "ipolypic")
 WIDE, NARROW = 0.4e-3, 0.16e-3  # m, widths of the samples
 HEIGHT = 0.72e-3  # m, of the domain
 WIDE_CELLS = (5 * UM, 2.5 * UM, 1.25 * UM)

@@ -114,8 +114,8 @@ struct Loading {
 
 struct Transfer {
   ShapeFunction shape = ShapeFunction::cubic;
-  VelocityTransfer velocity = VelocityTransfer::polyflip;
-  double damping = 0.01;     ///< decay of the residual while sound crosses a cell
+  VelocityTransfer velocity = VelocityTransfer::aflip;
+  double damping = 0.05;     ///< decay of the residual while sound crosses a cell
   double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
   bool operator==(const Transfer&) const = default;
 };

@@ -47,7 +47,7 @@ inline constexpr std::array<TransferScheme, 8> transfer_schemes = {{
     {VelocityTransfer::pic, "pic", Modes::constant, Keeps::nothing, 0.0, 0.5, 0.9},
     {VelocityTransfer::flip, "flip", Modes::constant, Keeps::all, 0.0, 0.4, 0.9},
     {VelocityTransfer::apic, "apic", Modes::affine, Keeps::nothing, 0.0, 1.0, 1.5},
-    {VelocityTransfer::aflip, "aflip", Modes::affine, Keeps::velocity, 0.1, 1.0, 1.5},
+    {VelocityTransfer::aflip, "aflip", Modes::affine, Keeps::velocity, 0.05, 1.0, 1.5},
     {VelocityTransfer::iapic, "iapic", Modes::affine, Keeps::all, 0.2, 1.0, 1.5},
     {VelocityTransfer::polypic, "polypic", Modes::quadratic, Keeps::nothing, 0.0, 1.0, 1.5},
     {VelocityTransfer::polyflip, "polyflip", Modes::quadratic, Keeps::velocity, 0.01, 1.0, 1.5},
