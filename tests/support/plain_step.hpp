@@ -1,5 +1,5 @@
 #pragma once
-// One step of the default scheme in 2-D (cubic B-splines, PolyFLIP, limited viscosity, conserving
+// One step of the richest scheme in 2-D (cubic B-splines, PolyFLIP, limited viscosity, conserving
 // thermodynamics, no walls) the plain way: a particle at a time, a node at a time, structs in
 // arrays, particles sorted by cell. It is what the speed of the kernels is measured against, and an
 // oracle for the whole step. Not to be tuned.
