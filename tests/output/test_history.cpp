@@ -55,7 +55,9 @@ TEST(History, HeaderAndNumbers) {
   const std::string solid = history_header(3, false);
   EXPECT_TRUE(contains(solid, "kinetic [J],")) << solid;
   EXPECT_TRUE(contains(solid, ",momentum_z [kg m/s],escaped_momentum_x [kg m/s],")) << solid;
-  EXPECT_TRUE(contains(solid, ",total_momentum_z [kg m/s],wall_force [N],numerical_share [-],guards [-]")) << solid;
+  EXPECT_TRUE(
+      contains(solid, ",total_momentum_z [kg m/s],wall_force [N],numerical_share [-],guards [-]"))
+      << solid;
   EXPECT_EQ(history_line(sample_row(3), 2),
             "1.0000000000000001e-09,3,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,"
             "1,-2,0.5,0.25,-0,3,5,7,-3.5,-11.75,1000000000,0,9");

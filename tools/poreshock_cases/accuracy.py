@@ -8,7 +8,7 @@ from functools import partial
 
 from poreshock_cases import impact, plate
 from poreshock_cases.always import DRIFT
-from poreshock_cases.catalogue import KNOWN as KNOWN_HARD, LIMITERS
+from poreshock_cases.catalogue import LIMITERS
 from poreshock_cases.program import Lab
 from poreshock_cases.table import Row, check
 
@@ -152,5 +152,4 @@ KNOWN = {
 } | {(case, figure): LIMITERS for case, figures in {
     "frame_moving_wall": ("stress_error", "density_error", "temperature_rise_error"),
     "frame_upwards": ("stress_error", "density_error", "temperature_rise_error"),
-    "invariance_aflip": ("mirror_100", "shift_100", "mirror_400", "shift_400")}.items() for figure in figures} | {
-    ("two waves, 5 mm", figure): reason for (case, figure), reason in KNOWN_HARD.items() if case == "two_waves"}
+    "invariance_aflip": ("mirror_100", "shift_100", "mirror_400", "shift_400")}.items() for figure in figures}

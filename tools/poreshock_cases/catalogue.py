@@ -48,8 +48,6 @@ LIMITERS = ("Where a limiter sets in, rounding decides which of two jumps is the
 KNOWN = {
     ("spinning", "APIC: drift per turn of the mean von Mises stress, turns 5 to 10"):
         "The stress at the steps of the rim, which a lattice makes of a circle, relaxes slowly.",
-    ("two_waves", "500 m/s: arrival of the precursor"):
-        "Three and a half cells too far, which is a hair more than 1 % of the way.",
     ("spray", "cubic APIC: change of temperature, K"):
         "A particle alone takes the longest step at which it is stable, and there rounding grows; with time.cfl = 0.5 "
         "the change is 3e-11 K.",
