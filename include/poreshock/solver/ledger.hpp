@@ -26,7 +26,7 @@ struct Ledger {
   NodeLedger nodes;
   Int128 viscous_heat = 0;
   Int128 transfer_heat = 0;    ///< filter heat
-  std::int64_t shortened = 0;  ///< particle-steps whose affine part lost a tenth to it
+  std::int64_t shortened = 0;  ///< particle-steps whose modes lost a tenth to it
   Int128 conduction = 0;       ///< heat gained by conduction: round-off
   Int128 escaped_energy = 0;
   Int128 escaped_mass = 0;  ///< quanta of mass, see mass_quantum

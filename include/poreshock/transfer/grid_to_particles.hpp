@@ -24,7 +24,7 @@ struct ParticleMotion {
 struct TransferReport {
   Int128 heat = 0;             ///< quanta
   std::int64_t negative = 0;   ///< particles whose heat was negative beyond rounding
-  std::int64_t shortened = 0;  ///< particles whose affine part had to be shortened by a tenth
+  std::int64_t shortened = 0;  ///< particles whose modes beyond the velocity lost a tenth
 };
 
 /// Replaces the mass lane of every node by |u' - u|^2/2 + lost u.u', the node's part of the heat of
