@@ -15,7 +15,8 @@ MAY_INCLUDE |= {
     "morphology": {"core"},  # measures any pixel map, knows no solver type
     "transfer": set(BASE),
     "physics": {*BASE, "transfer"},
-    "solver": {*BASE, "sample", "output", "morphology", "transfer", "physics"},
+    "solver": {*BASE, "sample", "output", "transfer", "physics"},  # the step
+    "run": {*BASE, "sample", "output", "morphology", "transfer", "physics", "solver"},  # all around it
 }
 MAY_INCLUDE["app"] = set(MAY_INCLUDE) - {"app"}
 

@@ -7,8 +7,8 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/output/folder.hpp"
+#include "poreshock/run/measure.hpp"
 #include "poreshock/scene/levels.hpp"
-#include "poreshock/solver/measure.hpp"
 #include "stored_map.hpp"
 #include "text.hpp"
 

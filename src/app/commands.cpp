@@ -16,9 +16,9 @@
 #include "poreshock/output/info.hpp"
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/run/run.hpp"
 #include "poreshock/scene/compare_scenes.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/solver/run.hpp"
 
 namespace poreshock {
 

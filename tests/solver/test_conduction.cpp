@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "poreshock/particles/derived.hpp"
-#include "poreshock/solver/checksum.hpp"
+#include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
 
 namespace poreshock::test {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "poreshock/output/checkpoint.hpp"
-#include "poreshock/solver/checksum.hpp"
+#include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
 
 namespace poreshock::test {

@@ -15,7 +15,7 @@
 
 #include "poreshock/output/checkpoint.hpp"
 #include "poreshock/particles/derived.hpp"
-#include "poreshock/solver/checksum.hpp"
+#include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
 
 namespace poreshock::test {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/run/checksum.hpp"
 #include "poreshock/scene/transfer_scheme.hpp"
-#include "poreshock/solver/checksum.hpp"
 #include "support/runs.hpp"
 #include "verification/verify.hpp"
 

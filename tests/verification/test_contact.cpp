@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "poreshock/solver/profiles.hpp"
+#include "poreshock/run/profiles.hpp"
 #include "verification/states.hpp"
 
 namespace poreshock::test {

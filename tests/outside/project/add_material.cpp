@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/run/run.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/solver/run.hpp"
 
 int main(int argc, char** argv) {
   const poreshock::Runtime runtime(argc, argv);

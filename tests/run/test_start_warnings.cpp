@@ -1,6 +1,6 @@
 // Runs in which nothing can happen, or from which the material flies off, are told before the
 // start.
-#include "poreshock/solver/start_warnings.hpp"
+#include "poreshock/run/start_warnings.hpp"
 
 #include <gtest/gtest.h>
 

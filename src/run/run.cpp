@@ -1,4 +1,4 @@
-#include "poreshock/solver/run.hpp"
+#include "poreshock/run/run.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -13,14 +13,14 @@
 #include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/rank_zero.hpp"
+#include "poreshock/run/checksum.hpp"
+#include "poreshock/run/profiles.hpp"
+#include "poreshock/run/progress.hpp"
+#include "poreshock/run/records.hpp"
+#include "poreshock/run/start_warnings.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/solver/checksum.hpp"
 #include "poreshock/solver/ownership.hpp"
-#include "poreshock/solver/profiles.hpp"
-#include "poreshock/solver/progress.hpp"
-#include "poreshock/solver/records.hpp"
 #include "poreshock/solver/sleep.hpp"
-#include "poreshock/solver/start_warnings.hpp"
 
 namespace poreshock {
 

@@ -1,4 +1,4 @@
-#include "poreshock/solver/checksum.hpp"
+#include "poreshock/run/checksum.hpp"
 
 #include <cstring>
 #include <vector>

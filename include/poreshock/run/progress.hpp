@@ -8,9 +8,9 @@
 
 #include "poreshock/core/phase.hpp"
 #include "poreshock/output/timings.hpp"
+#include "poreshock/run/time_to_go.hpp"
 #include "poreshock/solver/row_cost.hpp"
 #include "poreshock/solver/time_step.hpp"
-#include "poreshock/solver/time_to_go.hpp"
 
 namespace poreshock {
 

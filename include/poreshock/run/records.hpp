@@ -7,7 +7,7 @@
 
 #include "poreshock/morphology/pixel_map.hpp"
 #include "poreshock/output/history.hpp"
-#include "poreshock/solver/backlog.hpp"
+#include "poreshock/run/backlog.hpp"
 #include "poreshock/solver/simulation.hpp"
 
 namespace poreshock {

@@ -1,4 +1,4 @@
-#include "poreshock/solver/profiles.hpp"
+#include "poreshock/run/profiles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "poreshock/solver/time_to_go.hpp"
+#include "poreshock/run/time_to_go.hpp"
 
 namespace poreshock::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "poreshock/solver/records.hpp"
+#include "poreshock/run/records.hpp"
 
 #include "maps.hpp"
 #include "poreshock/core/error.hpp"
@@ -9,8 +9,8 @@
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/particles/derived.hpp"
-#include "poreshock/solver/measure.hpp"
-#include "poreshock/solver/profiles.hpp"
+#include "poreshock/run/measure.hpp"
+#include "poreshock/run/profiles.hpp"
 
 namespace poreshock {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "poreshock/particles/derived.hpp"
+#include "poreshock/run/profiles.hpp"
 #include "poreshock/solver/ledger.hpp"
-#include "poreshock/solver/profiles.hpp"
 #include "support/runs.hpp"
 
 namespace poreshock::test {

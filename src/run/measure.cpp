@@ -1,4 +1,4 @@
-#include "poreshock/solver/measure.hpp"
+#include "poreshock/run/measure.hpp"
 
 #include <cmath>
 #include <limits>

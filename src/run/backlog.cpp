@@ -1,4 +1,4 @@
-#include "poreshock/solver/backlog.hpp"
+#include "poreshock/run/backlog.hpp"
 
 #include <cstdio>
 

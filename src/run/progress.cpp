@@ -1,4 +1,4 @@
-#include "poreshock/solver/progress.hpp"
+#include "poreshock/run/progress.hpp"
 
 #include <algorithm>
 #include <array>

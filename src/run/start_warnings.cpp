@@ -1,4 +1,4 @@
-#include "poreshock/solver/start_warnings.hpp"
+#include "poreshock/run/start_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>

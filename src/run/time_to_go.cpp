@@ -1,4 +1,4 @@
-#include "poreshock/solver/time_to_go.hpp"
+#include "poreshock/run/time_to_go.hpp"
 
 #include <algorithm>
 
