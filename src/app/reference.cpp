@@ -1,6 +1,8 @@
 #include "poreshock/app/reference.hpp"
 
 #include <algorithm>
+#include <map>
+#include <vector>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/material/library.hpp"
@@ -68,22 +70,20 @@ std::string describe_materials(const std::string& name) {
 }
 
 std::string describe_keys() {
-  std::string text, table = "none yet";
+  std::vector<std::string> tables;
+  std::map<std::string, std::string> rows;
   for (const SceneKey& key : scene_keys()) {
-    if (key.table != table) {
-      table = key.table;
-      const std::string_view open = key.repeated ? "`[[" : "`[",
-                             close = key.repeated ? "]]`" : "]`";
-      text += text.empty() ? "" : "\n";
-      if (table.empty()) {
-        text += "At the top";
-      } else {
-        text.append(open).append(table).append(close);
-      }
-      text += "\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n";
-    }
-    text += "| `" + key.key + "` | " + cell(key.standard) + " | " + cell(key.allowed) + " | " +
-            cell(key.about) + " |\n";
+    const std::string table =
+        key.table.empty() ? "At the top of a scene"
+                          : (key.repeated ? "`[[" + key.table + "]]`" : "`[" + key.table + "]`");
+    if (!rows.contains(table)) tables.push_back(table);
+    rows[table] += "| `" + key.key + "` | " + cell(key.standard) + " | " + cell(key.allowed) +
+                   " | " + cell(key.about) + " |\n";
+  }
+  std::string text;
+  for (const std::string& table : tables) {
+    text += (text.empty() ? "### " : "\n### ") + table +
+            "\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n" + rows[table];
   }
   return text;
 }

@@ -12,7 +12,14 @@ install(DIRECTORY tools/poreshock_report DESTINATION ${CMAKE_INSTALL_DATADIR}/po
         PATTERN __pycache__ EXCLUDE)
 install(PROGRAMS tools/report.py tools/plate_exact.py tools/hugoniot.py tools/paraview_view.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/poreshock/tools)
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The pages in their folders, so that their links lead on.
+foreach(page README.md input/README.md input/first_hour/README.md src/README.md src/physics/README.md
+        src/morphology/README.md src/output/README.md include/poreshock/README.md tests/README.md
+        tests/verification/README.md tests/benchmark/README.md tools/README.md tools/CHANGELOG.md jobscripts/README.md
+        tests/verification.md tests/hard_cases.md tests/faults.md tests/readme/porous_aluminium.png)
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 install(FILES tools/completion.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME poreshock)
 
