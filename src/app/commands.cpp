@@ -175,6 +175,19 @@ ExitCode execute_run(const Command& command, MPI_Comm communicator) {
 
 }  // namespace
 
+std::string page_of(CommandKind kind, ExitCode code) {
+  if (code != ExitCode::bad_input) return "src/output/README.md, what stops a run";
+  switch (kind) {
+    case CommandKind::analyze:
+    case CommandKind::compare:
+      return "src/morphology/README.md";
+    case CommandKind::info:
+      return "src/output/README.md";
+    default:
+      return "input/README.md";
+  }
+}
+
 ExitCode execute(const Command& command, MPI_Comm communicator) {
   switch (command.kind) {
     case CommandKind::run:

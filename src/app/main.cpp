@@ -22,11 +22,15 @@ int end_all(poreshock::ExitCode code, const std::string& what) {
   return static_cast<int>(code);
 }
 
-/// An error that every rank knows of is said once; should a rank be alone with it after all, it
-/// does not wait for the others for ever.
-int fail(poreshock::ExitCode code, const char* what, MPI_Comm farewell) {
+/// An error that every rank knows of is said once, with the page that explains; should a rank be
+/// alone with it after all, it does not wait for the others for ever.
+int fail(poreshock::CommandKind kind, poreshock::ExitCode code, const char* what,
+         MPI_Comm farewell) {
   if (!poreshock::all_arrive(seconds_for_all, farewell)) return end_all(code, what);
-  if (poreshock::rank(farewell) == 0) std::fprintf(stderr, "poreshock: %s\n", what);
+  if (poreshock::rank(farewell) == 0) {
+    std::fprintf(stderr, "poreshock: %s\nexplained in %s\n", what,
+                 poreshock::page_of(kind, code).c_str());
+  }
   return static_cast<int>(code);
 }
 
@@ -37,11 +41,11 @@ int guarded(const poreshock::Command& command, MPI_Comm communicator, MPI_Comm f
   try {
     return static_cast<int>(poreshock::execute(command, communicator));
   } catch (const poreshock::InputError& error) {
-    return fail(ExitCode::bad_input, error.what(), farewell);
+    return fail(command.kind, ExitCode::bad_input, error.what(), farewell);
   } catch (const poreshock::StateError& error) {
-    return fail(ExitCode::bad_state, error.what(), farewell);
+    return fail(command.kind, ExitCode::bad_state, error.what(), farewell);
   } catch (const poreshock::SystemError& error) {
-    return fail(ExitCode::system_failure, error.what(), farewell);
+    return fail(command.kind, ExitCode::system_failure, error.what(), farewell);
   } catch (const std::bad_alloc&) {
     return end_all(ExitCode::system_failure,
                    "out of memory: use more nodes, larger cells or fewer particles per cell");

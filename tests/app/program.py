@@ -184,8 +184,10 @@ class ProgramTest(unittest.TestCase):
         result = self.call(*arguments, ranks=ranks)
         self.assertEqual(result.code, code, str(result))
         self.assertEqual(len(re.findall("^poreshock: ", result.errors, re.M)), 1, str(result))
-        text = re.split("^poreshock: ", result.errors, flags=re.M)[1]
-        return text.split("\n-----", maxsplit=1)[0].strip()
+        text = re.split("^poreshock: ", result.errors, flags=re.M)[1].split("\n-----", maxsplit=1)[0]
+        message, page = re.fullmatch(r"(.*)\nexplained in (\S+\.md)[^\n]*", text.strip(), re.S).groups()
+        self.assertTrue((ROOT / page).is_file(), page)
+        return message
 
     def refuse(self, message, *arguments, ranks=1):
         self.assertEqual(self.message(2, *arguments, ranks=ranks), message)

@@ -29,6 +29,10 @@ struct Command {
   CompareOptions compare;
 };
 
+/// The page of the sources, and of the installed documents, that explains how a command fails with
+/// this code. Pure function.
+std::string page_of(CommandKind kind, ExitCode code);
+
 /// Carries out a command. Throws InputError, StateError, SystemError. Collective.
 ExitCode execute(const Command& command, MPI_Comm communicator);
 
