@@ -35,6 +35,16 @@ class Rows(unittest.TestCase):
                          "- a, missed. Why.\n")
         self.assertIn("| **no** |", table.markdown(rows, {}))
 
+    def test_points_of_a_case_are_columns(self):
+        rows = [table.Row("plate, paper, 300 / 500 m/s", "stress", "+0.10 / -0.40 %; missed at 500", "0.3 %", False),
+                table.Row("plate, paper, 300 / 500 m/s", "drift", "1e-16 / 2e-16", "1e-10", True),
+                table.Row("other", "met", "1", "2", True)]
+        self.assertEqual(table.markdown(rows, {}),
+                         "plate, paper, at m/s:\n\n| figure | 300 | 500 | bar | pass |\n|---|---|---|---|---|\n"
+                         "| stress, % | +0.10 | -0.40 | 0.3 % | **no**; missed at 500 |\n"
+                         "| drift | 1e-16 | 2e-16 | 1e-10 | yes |\n\n"
+                         "| case | figure | value | bar | pass |\n|---|---|---|---|---|\n| other | met | 1 | 2 | yes |\n")
+
     def test_every_known_miss_belongs_to_a_case(self):
         self.assertEqual({case for case, _ in catalogue.KNOWN} - set(catalogue.CASES), set())
 

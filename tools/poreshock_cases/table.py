@@ -1,5 +1,11 @@
-"""Rows of figures with the bar each has to meet, and their markdown table."""
+"""Rows of figures with the bar each has to meet, and their markdown tables."""
+import re
 from dataclasses import dataclass
+from itertools import groupby
+
+# A case with several points: "plate, paper, 300 / 500 m/s", whose value lists one number for each: "+0.1 / -0.2 %".
+POINTS = re.compile(r"(.*), (\S+(?: / \S+)+) (\S+)")
+VALUES = re.compile(r"(\S+(?: / \S+)+)(?: ([^;]+))?(?:; (.*))?")
 
 
 @dataclass(frozen=True)
@@ -48,10 +54,33 @@ def verdict(row, known):
     return "yes" if row.ok else "known miss" if (row.case, row.figure) in known else "**no**"
 
 
+def line(words):
+    return f"| {' | '.join(words)} |"
+
+
+def points_table(case, rows, known):
+    """The table of a case with several points: a row per figure, a column per point."""
+    name, points, unit = POINTS.fullmatch(case).groups()
+    points = points.split(" / ")
+    lines = [f"{name}, at {unit}:", "", line(["figure", *points, "bar", "pass"]), "|---" * (len(points) + 3) + "|"]
+    for row in rows:
+        values, of, missed = VALUES.fullmatch(row.value).groups()
+        lines.append(line([row.figure + (f", {of}" if of else ""), *values.split(" / "), row.bar,
+                           verdict(row, known) + (f"; {missed}" if missed else "")]))
+    return lines
+
+
 def markdown(rows, known):
-    """The table, and under it the known misses in it, grouped by their reason."""
-    lines = ["| case | figure | value | bar | pass |", "|---|---|---|---|---|"]
-    lines += [f"| {row.case} | {row.figure} | {row.value} | {row.bar} | {verdict(row, known)} |" for row in rows]
+    """The tables, and under them the known misses in them, grouped by their reason."""
+    lines = []
+    for several, part in groupby(rows, lambda row: POINTS.fullmatch(row.case) is not None):
+        for case, figures in groupby(part, lambda row: row.case if several else ""):
+            lines += [""] if lines else []
+            if several:
+                lines += points_table(case, figures, known)
+            else:
+                lines += [line(["case", "figure", "value", "bar", "pass"]), "|---|---|---|---|---|"]
+                lines += [line([row.case, row.figure, row.value, row.bar, verdict(row, known)]) for row in figures]
     missed = {}
     for row in rows:
         if row.ok is False and (row.case, row.figure) in known:
