@@ -22,19 +22,6 @@ std::string column_path(std::string_view name, int component) {
   return path;
 }
 
-std::string_view column_unit(std::string_view name, int dimension) {
-  if (name == "position") return "m";
-  if (name == "velocity" || name == "quadratic") return "m/s";
-  if (name == "affine") return "1/s";
-  if (name == "mass") return dimension == 2 ? "kg/m" : "kg";
-  if (name == "density") return "kg/m^3";
-  if (name == "internal_energy" || name == "plastic_work" || name == "conducted_heat") {
-    return "J/kg";
-  }
-  if (name.ends_with("pressure") || name == "deviator" || name == "back_stress") return "Pa";
-  return "1";
-}
-
 template <class Column>
 using Number = typename std::remove_cvref_t<Column>::value_type;
 
@@ -48,21 +35,24 @@ FileSpec file_spec(const std::string& scene_text, const RunState& state,
   spec.attributes.push_back({"last_dt", state.last_dt});
   spec.attributes.push_back({"beat", state.beat});
   spec.attributes.push_back({"record", state.record});
-  spec.attributes.push_back({"affine", std::int64_t{particles.options.affine}});
-  spec.attributes.push_back({"quadratic", std::int64_t{particles.options.quadratic}});
-  spec.attributes.push_back({"back_stress", std::int64_t{particles.options.back_stress}});
-  spec.attributes.push_back({"conducted_heat", std::int64_t{particles.options.conducted_heat}});
-  spec.attributes.push_back({"failed", std::int64_t{particles.options.failed}});
-  spec.attributes.push_back({"facing", std::int64_t{particles.options.facing}});
+  for_each_option(particles.options, [&](std::string_view name, bool on) {
+    spec.attributes.push_back({std::string(name), std::int64_t{on}});
+  });
   if (state.first_total) spec.attributes.push_back({"first_total", *state.first_total});
   spec.datasets.push_back({integers_path, NumberType::int64, {state.integers.size()}, "1", {}});
-  for_each_column(particles, [&](std::string_view name, int component, const auto& column) {
-    spec.datasets.push_back({column_path(name, component),
-                             number_type_of<Number<decltype(column)>>,
-                             {rows},
-                             std::string(column_unit(name, Dim)),
-                             {}});
-  });
+  for_each_entry(
+      [&](const auto& entry, const auto& member) {
+        for_each_component(
+            [&](int component, const auto& column) {
+              spec.datasets.push_back({column_path(entry.name, component),
+                                       number_type_of<Number<decltype(column)>>,
+                                       {rows},
+                                       std::string(entry.unit),
+                                       {}});
+            },
+            member);
+      },
+      particles);
   return spec;
 }
 
@@ -131,12 +121,9 @@ void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string
   scene_text = file.text("scene");
   state = read_state(file);
   particles = Particles<Dim>{};
-  particles.options.affine = file.integer("affine") != 0;
-  particles.options.quadratic = optional_column(file, "quadratic");
-  particles.options.back_stress = file.integer("back_stress") != 0;
-  particles.options.conducted_heat = optional_column(file, "conducted_heat");
-  particles.options.failed = optional_column(file, "failed");
-  particles.options.facing = optional_column(file, "facing");
+  for_each_option(particles.options, [&](std::string_view name, bool& on) {
+    on = optional_column(file, std::string(name));
+  });
   const RowRange rows = equal_share(file.dataset(column_path("id", -1)).rows(), communicator);
   resize(particles, rows.count);
   for_each_column(particles, [&](std::string_view name, int component, auto& column) {

@@ -1,7 +1,7 @@
 #include "poreshock/output/snapshot.hpp"
 
 #include <algorithm>
-#include <array>
+#include <type_traits>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -17,68 +17,10 @@ namespace {
 template <int Dim>
 struct Source {
   const SnapshotInput<Dim>& input;
-  std::vector<double> temperature;
+  bool coloured;          ///< on all ranks; one of them may have no particles, and then no colours
   double affine_inertia;  ///< m^2
+  std::vector<double> temperature;
 };
-
-/// One dataset of floating-point numbers: component c of particle i.
-template <int Dim>
-struct Field {
-  std::string_view name;
-  int components;
-  std::string_view unit;
-  double (*value)(const Source<Dim>& source, std::size_t i, std::size_t c);
-};
-
-template <int Dim>
-auto fields() {
-  using S = const Source<Dim>&;
-  using N = std::size_t;
-  return std::array<Field<Dim>, 11>{{
-      {"position", Dim, "m",
-       [](S s, N i, N c) {
-         return s.input.particles.position[c][i] + s.input.shift[static_cast<Eigen::Index>(c)];
-       }},
-      {"velocity", Dim, "m/s", [](S s, N i, N c) { return s.input.particles.velocity[c][i]; }},
-      {"mass", 1, Dim == 2 ? "kg/m" : "kg", [](S s, N i, N) { return s.input.particles.mass[i]; }},
-      {"density", 1, "kg/m^3", [](S s, N i, N) { return s.input.particles.density[i]; }},
-      {"pressure", 1, "Pa", [](S s, N i, N) { return s.input.particles.pressure[i]; }},
-      {"stress", symmetric_size<Dim>, "Pa",
-       [](S s, N i, N c) {
-         const Particles<Dim>& p = s.input.particles;
-         return p.deviator[c][i] - (c < 3 ? p.pressure[i] : 0.0);
-       }},
-      {"temperature", 1, "K", [](S s, N i, N) { return s.temperature[i]; }},
-      {"plastic_strain", 1, "1", [](S s, N i, N) { return s.input.particles.plastic_strain[i]; }},
-      {"plastic_work", 1, "J/kg", [](S s, N i, N) { return s.input.particles.plastic_work[i]; }},
-      {"internal_energy", 1, "J/kg",
-       [](S s, N i, N) { return s.input.particles.internal_energy[i]; }},
-      {"kinetic_energy", 1, "J/kg",
-       [](S s, N i, N) { return kinetic_energy(s.input.particles, s.affine_inertia, i); }},
-  }};
-}
-
-/// Datasets of the physics that only some scenes ask for: none without.
-template <int Dim>
-std::vector<Field<Dim>> optional_fields(const Particles<Dim>& particles) {
-  std::vector<Field<Dim>> list;
-  if (particles.options.conducted_heat) {
-    list.push_back(
-        {"conducted_heat", 1, "J/kg", [](const Source<Dim>& s, std::size_t i, std::size_t) {
-           return s.input.particles.conducted_heat[i];
-         }});
-  }
-  return list;
-}
-
-/// The datasets of floating-point numbers of one snapshot.
-template <int Dim>
-std::vector<Field<Dim>> fields_of(const Particles<Dim>& particles) {
-  const auto common = fields<Dim>();
-  std::vector<Field<Dim>> list(common.begin(), common.end());
-  for (const auto& field : optional_fields(particles)) list.push_back(field);
-  return list;
-}
 
 /// Whether a dataset is written; a reader needs the id and the position of every snapshot.
 bool wanted(const Scene& scene, std::string_view name) {
@@ -87,14 +29,60 @@ bool wanted(const Scene& scene, std::string_view name) {
          std::find(list.begin(), list.end(), name) != list.end();
 }
 
+/// Calls visit(name, unit, components, value) for every dataset of the particles that the scene
+/// wants; value(i, c) is component c of particle i, in the type of the column.
+template <int Dim, class Visitor>
+void for_each_dataset(const Source<Dim>& source, Visitor&& visit) {
+  const SnapshotInput<Dim>& input = source.input;
+  const Particles<Dim>& p = input.particles;
+  const auto give = [&](std::string_view name, std::string_view unit, int components,
+                        const auto& value) {
+    if (wanted(input.scene, name)) visit(name, unit, components, value);
+  };
+  for_each_entry(
+      [&](const auto& entry, const auto& member) {
+        if (!entry.use.shown) return;
+        if constexpr (has_components<std::remove_cvref_t<decltype(member)>>) {
+          give(entry.name, entry.unit, static_cast<int>(member.size()),
+               [&](std::size_t i, std::size_t c) { return member[c][i]; });
+        } else {
+          give(entry.name, entry.unit, 1, [&](std::size_t i, std::size_t) { return member[i]; });
+        }
+      },
+      p);
+  if (source.coloured) {
+    give("colour", "1", 1, [&](std::size_t i, std::size_t) { return input.colour[i]; });
+  }
+  give("position", "m", Dim, [&](std::size_t i, std::size_t c) {
+    return p.position[c][i] + input.shift[static_cast<Eigen::Index>(c)];
+  });
+  give("stress", "Pa", symmetric_size<Dim>, [&](std::size_t i, std::size_t c) {
+    return p.deviator[c][i] - (c < 3 ? p.pressure[i] : 0.0);
+  });
+  give("temperature", "K", 1, [&](std::size_t i, std::size_t) { return source.temperature[i]; });
+  give("kinetic_energy", "J/kg", 1,
+       [&](std::size_t i, std::size_t) { return kinetic_energy(p, source.affine_inertia, i); });
+}
+
+/// Type in the file of numbers that are of type T in the program.
+template <class T>
+NumberType type_in_file(const Scene& scene) {
+  const bool single = scene.output.precision == Precision::single_precision;
+  return std::is_same_v<T, double> && single ? NumberType::float32 : number_type_of<T>;
+}
+
+/// Type of the numbers of a dataset in the program.
+template <class Value>
+using Number = std::invoke_result_t<Value, std::size_t, std::size_t>;
+
 const std::string map_folder = "/map/";
 
 /// Rank whose slab a particle was in; how a run was cut is not part of its result.
 constexpr const char* owner_path = "/slabs/owner";
 
 template <int Dim>
-FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int64_t floored,
-                   bool coloured) {
+FileSpec file_spec(const Source<Dim>& source, std::uint64_t rows, std::int64_t floored) {
+  const SnapshotInput<Dim>& input = source.input;
   FileSpec spec;
   spec.attributes = root_attributes("snapshot", input.time, input.step, input.scene_text);
   spec.attributes.push_back({"record", input.record});
@@ -105,34 +93,25 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
   for (int axis = 0; axis < Dim; ++axis) {
     spec.attributes.push_back({std::string("origin_") + "xyz"[axis], input.shift[axis]});
   }
-  const auto add = [&](std::string_view name, NumberType type, int components,
-                       std::string_view unit) {
-    if (!wanted(input.scene, name)) return;
-    std::vector<std::uint64_t> shape = {rows};
-    if (components > 1) shape.push_back(static_cast<std::uint64_t>(components));
-    spec.datasets.push_back(
-        {"/particles/" + std::string(name), type, shape, std::string(unit), {}});
-    if (name == "temperature") spec.datasets.back().attributes = {{"set_to_floor", floored}};
-  };
-  add("id", NumberType::int64, 1, "1");
-  add("grain", NumberType::int32, 1, "1");
-  add("material", NumberType::int32, 1, "1");
-  if (input.particles.options.failed) add("failed", NumberType::int32, 1, "1");
-  if (coloured) add("colour", NumberType::int32, 1, "1");
-  const bool single = input.scene.output.precision == Precision::single_precision;
-  for (const auto& field : fields_of(input.particles)) {
-    add(field.name, single ? NumberType::float32 : NumberType::float64, field.components,
-        field.unit);
-  }
+  for_each_dataset(
+      source, [&](std::string_view name, std::string_view unit, int components, const auto& value) {
+        std::vector<std::uint64_t> shape = {rows};
+        if (components > 1) shape.push_back(static_cast<std::uint64_t>(components));
+        spec.datasets.push_back({"/particles/" + std::string(name),
+                                 type_in_file<Number<decltype(value)>>(input.scene),
+                                 shape,
+                                 std::string(unit),
+                                 {}});
+        if (name == "temperature") spec.datasets.back().attributes = {{"set_to_floor", floored}};
+      });
   spec.datasets.push_back({owner_path, NumberType::int32, {rows}, "1", {}});
   for (const SnapshotMap& map : input.maps) {
     std::vector<Attribute> place = {{"pixel", map.pixel}};
     for (int axis = 0; axis < Dim; ++axis) {
       place.push_back({std::string("low_") + "xyz"[axis], map.low[axis]});
     }
-    spec.datasets.push_back({map_folder + map.name,
-                             single ? NumberType::float32 : NumberType::float64, map.shape,
-                             map.unit, place});
+    spec.datasets.push_back(
+        {map_folder + map.name, type_in_file<double>(input.scene), map.shape, map.unit, place});
   }
   return spec;
 }
@@ -140,25 +119,52 @@ FileSpec file_spec(const SnapshotInput<Dim>& input, std::uint64_t rows, std::int
 /// Particles whose numbers one rank gathers for one call.
 constexpr std::size_t rows_at_once = std::size_t{1} << 16;
 
-/// Writes one dataset in pieces, so that no second copy of a whole field is ever held. Collective;
-/// all ranks give the same number of `pieces`.
-template <class T, int Dim>
-void write_field(const Field<Dim>& field, const Source<Dim>& source, std::uint64_t first_row,
-                 int pieces, Hdf5File& file) {
-  const std::size_t count = source.input.particles.size();
-  const auto components = static_cast<std::size_t>(field.components);
-  const std::string path = "/particles/" + std::string(field.name);
+/// Where the particles of this rank stand in the datasets.
+struct RowsInFile {
+  std::size_t count;
+  std::uint64_t first;
+  int pieces;  ///< the same on all ranks
+};
+
+/// Writes value(i, c) of all particles as numbers of type T in pieces, so that no second copy of a
+/// whole field is ever held. Collective.
+template <class T, class Value>
+void write_pieces(const std::string& path, std::size_t components, const Value& value,
+                  const RowsInFile& rows, Hdf5File& file) {
   std::vector<T> values;
-  for (int piece = 0; piece < pieces; ++piece) {
-    const std::size_t begin = std::min(count, static_cast<std::size_t>(piece) * rows_at_once);
-    const std::size_t end = std::min(count, begin + rows_at_once);
+  for (int piece = 0; piece < rows.pieces; ++piece) {
+    const std::size_t begin = std::min(rows.count, static_cast<std::size_t>(piece) * rows_at_once);
+    const std::size_t end = std::min(rows.count, begin + rows_at_once);
     values.clear();
     for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t c = 0; c < components; ++c) {
-        values.push_back(static_cast<T>(field.value(source, i, c)));
-      }
+      for (std::size_t c = 0; c < components; ++c) values.push_back(static_cast<T>(value(i, c)));
     }
-    file.write<T>(path, first_row + begin, values);
+    file.write<T>(path, rows.first + begin, values);
+  }
+}
+
+template <int Dim>
+void write_particles(const Source<Dim>& source, const RowsInFile& rows, Hdf5File& file) {
+  for_each_dataset(source,
+                   [&](std::string_view name, std::string_view, int components, const auto& value) {
+                     using T = Number<decltype(value)>;
+                     const std::string path = "/particles/" + std::string(name);
+                     const auto count = static_cast<std::size_t>(components);
+                     if (type_in_file<T>(source.input.scene) == NumberType::float32) {
+                       write_pieces<float>(path, count, value, rows, file);
+                     } else {
+                       write_pieces<T>(path, count, value, rows, file);
+                     }
+                   });
+}
+
+void write_map(const SnapshotMap& map, NumberType type, Hdf5File& file) {
+  const std::string dataset = map_folder + map.name;
+  if (type == NumberType::float32) {
+    const std::vector<float> values(map.values.begin(), map.values.end());
+    file.write<float>(dataset, map.first_row, values);
+  } else {
+    file.write<double>(dataset, map.first_row, map.values);
   }
 }
 
@@ -171,7 +177,8 @@ std::string snapshot_name(std::int64_t record) {
 template <int Dim>
 std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input, bool coloured) {
   std::size_t bytes = 0;
-  for (const DatasetSpec& dataset : file_spec(input, 1, 0, coloured).datasets) {
+  const Source<Dim> source{input, coloured, 0.0, {}};
+  for (const DatasetSpec& dataset : file_spec(source, 1, 0).datasets) {
     if (dataset.path.starts_with(map_folder)) continue;
     const std::uint64_t components = dataset.shape.size() > 1 ? dataset.shape[1] : 1;
     bytes += components * number_size(dataset.type);
@@ -182,49 +189,27 @@ std::size_t snapshot_bytes_per_particle(const SnapshotInput<Dim>& input, bool co
 template <int Dim>
 std::int64_t write_snapshot(const std::string& path, const SnapshotInput<Dim>& input,
                             MPI_Comm communicator) {
-  const Particles<Dim>& particles = input.particles;
-  Source<Dim> source{input, {}, affine_inertia(input.scene.transfer, input.scene.domain.cell)};
+  const std::size_t count = input.particles.size();
+  Source<Dim> source{input,
+                     sum(static_cast<std::int64_t>(input.colour.size()), communicator) > 0,
+                     affine_inertia(input.scene.transfer, input.scene.domain.cell),
+                     {}};
   std::int64_t floored = 0;
   if (wanted(input.scene, "temperature")) {
-    floored = sum(derive_field("temperature", particles, input.materials, input.scene.thermal,
+    floored = sum(derive_field("temperature", input.particles, input.materials, input.scene.thermal,
                                source.temperature),
                   communicator);
   }
-  const RowRange rows = rows_in_rank_order(particles.size(), communicator);
-  // A rank may have no particles, and then no colours.
-  const bool coloured = sum(static_cast<std::int64_t>(input.colour.size()), communicator) > 0;
-  Hdf5File file = Hdf5File::create(path, file_spec(input, rows.total, floored, coloured),
-                                   communicator, Replace::yes, Durable::later);
-  const auto write_integers = [&](std::string_view name, const auto& column) {
-    using T = typename std::remove_cvref_t<decltype(column)>::value_type;
-    if (!wanted(input.scene, name)) return;
-    file.write<T>("/particles/" + std::string(name), rows.first, column);
-  };
-  write_integers("id", particles.id);
-  write_integers("grain", particles.grain);
-  write_integers("material", particles.material);
-  if (particles.options.failed) write_integers("failed", particles.failed);
-  if (coloured) write_integers("colour", input.colour);
+  const RowRange rows = rows_in_rank_order(count, communicator);
+  Hdf5File file = Hdf5File::create(path, file_spec(source, rows.total, floored), communicator,
+                                   Replace::yes, Durable::later);
   const int pieces =
-      largest(static_cast<int>((particles.size() + rows_at_once - 1) / rows_at_once), communicator);
-  for (const auto& field : fields_of(particles)) {
-    if (!wanted(input.scene, field.name)) continue;
-    if (input.scene.output.precision == Precision::single_precision) {
-      write_field<float>(field, source, rows.first, pieces, file);
-    } else {
-      write_field<double>(field, source, rows.first, pieces, file);
-    }
-  }
-  const std::vector<std::int32_t> owner(particles.size(), rank(communicator));
+      largest(static_cast<int>((count + rows_at_once - 1) / rows_at_once), communicator);
+  write_particles(source, {count, rows.first, pieces}, file);
+  const std::vector<std::int32_t> owner(count, rank(communicator));
   file.write<std::int32_t>(owner_path, rows.first, owner);
   for (const SnapshotMap& map : input.maps) {
-    const std::string dataset = map_folder + map.name;
-    if (input.scene.output.precision == Precision::single_precision) {
-      const std::vector<float> values(map.values.begin(), map.values.end());
-      file.write<float>(dataset, map.first_row, values);
-    } else {
-      file.write<double>(dataset, map.first_row, map.values);
-    }
+    write_map(map, type_in_file<double>(input.scene), file);
   }
   file.finish();
   return floored;

@@ -11,7 +11,7 @@ template <int Dim>
 [[gnu::flatten]] void trial_norms(const Columns<Dim>& columns, double shear, double dt,
                                   std::size_t count, double* equivalent) {
   const Columns<Dim> c = columns;
-  const bool can_fail = c.failed != nullptr;
+  const bool can_fail = c.particle.failed != nullptr;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
     std::array<double, Dim * Dim> F;
@@ -19,8 +19,8 @@ template <int Dim>
       F[j] = (j % (Dim + 1) == 0 ? 1.0 : 0.0) + dt * c.gradient[j][k];
     }
     SymmetricTensor<Dim> s;
-    for (int j = 0; j < symmetric_size<Dim>; ++j) s[j] = c.deviator[j][k];
-    const bool failed = can_fail && c.failed[k] != 0;
+    for (int j = 0; j < symmetric_size<Dim>; ++j) s[j] = c.particle.deviator[j][k];
+    const bool failed = can_fail && c.particle.failed[k] != 0;
     const auto t = trial_stress<Dim>(deformation_increment(F), s, failed ? 0.0 : shear);
     equivalent[k] = std::sqrt(1.5) * std::sqrt(contract<Dim>(t.trial, t.trial));
   }
@@ -52,7 +52,8 @@ void plastic_increments(const std::vector<Material>& materials, Thermal thermal,
                        particle_temperature<Dim>(particles, materials, thermal, i));
   }
   trial_norms<Dim>(c, m.strength.shear, dt, places.size(), equivalent);
-  solve(*m.flow, m.strength.shear, dt, equivalent, factors, c.strain, places.size(), increments);
+  solve(*m.flow, m.strength.shear, dt, equivalent, factors, c.particle.plastic_strain,
+        places.size(), increments);
 }
 
 template void plastic_increments<2>(const std::vector<Material>&, Thermal, const Particles<2>&,

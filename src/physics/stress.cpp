@@ -84,56 +84,81 @@ template <int Dim, Yielding How, bool Spall, bool Conserving>
   const double lone = lone_rate<Dim>(settings, m);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    update_particle<Dim, How, Spall, Conserving>(m, settings, dt, lone, c, k, k, results);
+    update_particle<Dim, How, Spall, Conserving>(m, settings, dt, lone, c, k, results);
   }
   reduce(m, results, count, settings.cell, settings.inverse_energy_quantum, report);
 }
 
+template <class T>
+struct alignas(64) BlockColumn {
+  T values[block_size];
+};
+
 /// Copies of the particles of one block side by side, where their columns have them scattered.
 template <int Dim>
-struct BlockCopy {
-  static constexpr int most_columns = 7 + 2 * symmetric_size<Dim> + Dim;
-  alignas(64) double values[most_columns][block_size];
-  std::int32_t failed[block_size];
-};
+using BlockCopy = ParticleColumns<Dim, BlockColumn>;
+
+/// Calls visit(use, column of `all`, of `block`, of `copy`) for all columns that the update needs.
+template <int Dim, class Visitor>
+void for_each_stress_column(const ParticlePointers<Dim>& all, ParticlePointers<Dim>& block,
+                            BlockCopy<Dim>& copy, Visitor&& visit) {
+  for_each_entry(
+      [&](const auto& entry, auto&... members) {
+        if (entry.use.stress == InStress::unused) return;
+        for_each_component([&](int, const auto& source, auto& local,
+                               auto& room) { visit(entry.use.stress, source, local, room.values); },
+                           members...);
+      },
+      all, block, copy);
+}
+
+template <int Dim>
+ParticlePointers<Dim> pointers_to(Particles<Dim>& particles) {
+  ParticlePointers<Dim> pointers{};
+  for_each_entry(
+      [](const auto&, auto& vectors, auto& targets) {
+        for_each_component([](int, auto& vector, auto& target) { target = vector.data(); }, vectors,
+                           targets);
+      },
+      particles, pointers);
+  pointers.options = particles.options;
+  return pointers;
+}
+
+bool side_by_side(std::span<const std::uint32_t> places) {
+  bool adjacent = true;
+  for (std::size_t k = 1; k < places.size(); ++k) adjacent = adjacent && places[k] == places[0] + k;
+  return adjacent;
+}
 
 /// The columns of a block of particles: in place where they lie side by side, else copied.
 template <int Dim>
-Columns<Dim> fetch(const Columns<Dim>& particles, const std::uint32_t* places, std::size_t count,
-                   BlockCopy<Dim>& copy) {
-  bool adjacent = true;
-  for (std::size_t k = 1; k < count; ++k) adjacent = adjacent && places[k] == places[0] + k;
-  Columns<Dim> c{};
-  int column = 0;
-  for_each_pair<Dim>(particles, c, [&](double* source, double*& local, bool) {
-    if (source == nullptr || adjacent) {
-      local = source == nullptr ? nullptr : source + places[0];
-      return;
-    }
-    local = copy.values[column++];
-    for (std::size_t k = 0; k < count; ++k) local[k] = source[places[k]];
-  });
-  c.failed = particles.failed;
-  if (c.failed != nullptr && adjacent) c.failed += places[0];
-  if (c.failed != nullptr && !adjacent) {
-    for (std::size_t k = 0; k < count; ++k) copy.failed[k] = particles.failed[places[k]];
-    c.failed = copy.failed;
-  }
-  return c;
+ParticlePointers<Dim> fetch(const ParticlePointers<Dim>& all, std::span<const std::uint32_t> places,
+                            bool adjacent, BlockCopy<Dim>& copy) {
+  ParticlePointers<Dim> block{};
+  for_each_stress_column<Dim>(all, block, copy,
+                              [&](InStress, auto* source, auto*& local, auto* room) {
+                                if (adjacent) {
+                                  local = source + places[0];
+                                  return;
+                                }
+                                local = room;
+                                for (std::size_t k = 0; k < places.size(); ++k)
+                                  local[k] = source[places[k]];
+                              });
+  return block;
 }
 
 /// Puts the changed columns of a copied block back.
 template <int Dim>
-void put_back(const Columns<Dim>& columns, const std::uint32_t* places, std::size_t count,
-              const BlockCopy<Dim>& copy, const Columns<Dim>& particles) {
-  if (columns.density != copy.values[0]) return;
-  Columns<Dim> c = columns;
-  for_each_pair<Dim>(particles, c, [&](double* target, double*& local, bool changes) {
-    if (target == nullptr || !changes) return;
-    for (std::size_t k = 0; k < count; ++k) target[places[k]] = local[k];
-  });
-  if (particles.failed == nullptr) return;
-  for (std::size_t k = 0; k < count; ++k) particles.failed[places[k]] = copy.failed[k];
+void put_back(const ParticlePointers<Dim>& all, std::span<const std::uint32_t> places,
+              ParticlePointers<Dim>& block, BlockCopy<Dim>& copy) {
+  for_each_stress_column<Dim>(all, block, copy,
+                              [&](InStress use, auto* target, auto*& local, auto*) {
+                                if (use != InStress::changed) return;
+                                for (std::size_t k = 0; k < places.size(); ++k)
+                                  target[places[k]] = local[k];
+                              });
 }
 
 /// Calls visit(material index, first, count) for blocks of particles of one material.
@@ -163,23 +188,25 @@ template <int Dim, Yielding How, bool Spall>
 void update_all(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                 const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
                 Particles<Dim>& particles, StressReport& report) {
-  const Columns<Dim> all = particle_columns<Dim>(particles);
+  const ParticlePointers<Dim> all = pointers_to(particles);
   BlockCopy<Dim> copy;
   double increments[block_size];
   for_each_block<Dim>(
       particles, places, [&](std::int32_t material, std::size_t first, std::size_t count) {
-        Columns<Dim> c = fetch<Dim>(all, places.data() + first, count, copy);
+        const auto block = places.subspan(first, count);
+        const bool adjacent = side_by_side(block);
+        Columns<Dim> c{};
+        c.particle = fetch<Dim>(all, block, adjacent, copy);
         set_step_columns<Dim>(step, first, c);
         const auto& m = std::get<J2MieGruneisen>(materials[static_cast<std::size_t>(material)]);
         if (m.flow) {
-          plastic_increments<Dim>(materials, settings.thermal, particles,
-                                  places.subspan(first, count), c, dt, increments);
+          plastic_increments<Dim>(materials, settings.thermal, particles, block, c, dt, increments);
           c.plastic_increment = increments;
           update_in_mode<Dim, Yielding::known, Spall>(m, settings, dt, c, count, report);
         } else {
           update_in_mode<Dim, How, Spall>(m, settings, dt, c, count, report);
         }
-        put_back<Dim>(c, places.data() + first, count, copy, all);
+        if (!adjacent) put_back<Dim>(all, block, c.particle, copy);
       });
 }
 

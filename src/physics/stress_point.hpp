@@ -59,56 +59,15 @@ inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double 
   return {pressure, 1.0 / (rate > strain ? rate : strain)};
 }
 
-/// Columns of the particles and of the step as raw pointers, for the vectorised loop; null where a
-/// column is not in use.
+/// Particles and what the step found for them as raw pointers, for the vectorised loop.
 template <int Dim>
 struct Columns {
-  double *density, *pressure, *viscous_pressure, *energy, *strain, *work, *mass;
-  std::array<double*, symmetric_size<Dim>> deviator, back_stress;
-  std::array<double*, Dim> velocity;
-  std::int32_t* failed;
+  ParticlePointers<Dim> particle;
   const double *heat, *viscous_linear, *viscous_quadratic;
   const double* plastic_increment;  // null unless known beforehand
   std::array<const double*, Dim * Dim> gradient;
   std::array<const double*, rate_size<Dim>> rate;
 };
-
-/// Calls visit(pointer of a, pointer of b, whether the update changes the column) for all columns
-/// of the particles that are doubles.
-template <int Dim, class Visit>
-void for_each_pair(const Columns<Dim>& a, Columns<Dim>& b, Visit&& visit) {
-  visit(a.density, b.density, true);
-  visit(a.pressure, b.pressure, true);
-  visit(a.viscous_pressure, b.viscous_pressure, true);
-  visit(a.energy, b.energy, true);
-  visit(a.strain, b.strain, true);
-  visit(a.work, b.work, true);
-  visit(a.mass, b.mass, false);
-  for (int k = 0; k < symmetric_size<Dim>; ++k) {
-    visit(a.deviator[k], b.deviator[k], true);
-    visit(a.back_stress[k], b.back_stress[k], true);
-  }
-  for (int k = 0; k < Dim; ++k) visit(a.velocity[k], b.velocity[k], false);
-}
-
-template <int Dim>
-Columns<Dim> particle_columns(Particles<Dim>& p) {
-  Columns<Dim> c{};
-  c.density = p.density.data();
-  c.pressure = p.pressure.data();
-  c.viscous_pressure = p.viscous_pressure.data();
-  c.energy = p.internal_energy.data();
-  c.strain = p.plastic_strain.data();
-  c.work = p.plastic_work.data();
-  c.mass = p.mass.data();
-  for (int k = 0; k < symmetric_size<Dim>; ++k) {
-    c.deviator[k] = p.deviator[k].data();
-    c.back_stress[k] = p.options.back_stress ? p.back_stress[k].data() : nullptr;
-  }
-  for (int k = 0; k < Dim; ++k) c.velocity[k] = p.velocity[k].data();
-  c.failed = p.options.failed ? p.failed.data() : nullptr;
-  return c;
-}
 
 /// Points the step's columns to entry `first`.
 template <int Dim>
@@ -160,7 +119,7 @@ inline Motion<Dim> load_motion(const StressSettings<Dim>& settings, double dt,
     motion.F[k] = (diagonal ? 1.0 : 0.0) + dt * l;
   }
   for (int a = 0; a < Dim; ++a) {
-    const double v = c.velocity[a][i] - settings.grid_velocity[a];
+    const double v = c.particle.velocity[a][i] - settings.grid_velocity[a];
     const double magnitude = v < 0.0 ? -v : v;
     motion.speed = magnitude > motion.speed ? magnitude : motion.speed;
   }
@@ -206,28 +165,29 @@ inline void release(const MieGruneisen& law, bool fails, ReturnMapping<Dim>& map
 /// One particle, load - call - store.
 template <int Dim, Yielding How, bool Spall, bool Conserving>
 inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
-                            double lone, const Columns<Dim>& c, std::size_t i, std::size_t local,
+                            double lone, const Columns<Dim>& c, std::size_t i,
                             BlockResults& results) {
+  const ParticlePointers<Dim>& p = c.particle;
   constexpr bool kinematic = How == Yielding::kinematic;
   constexpr int size = symmetric_size<Dim>;
   SymmetricTensor<Dim> s, alpha{};
-  for (int k = 0; k < size; ++k) s[k] = c.deviator[k][i];
+  for (int k = 0; k < size; ++k) s[k] = p.deviator[k][i];
   if constexpr (kinematic) {
-    for (int k = 0; k < size; ++k) alpha[k] = c.back_stress[k][i];
+    for (int k = 0; k < size; ++k) alpha[k] = p.back_stress[k][i];
   }
   const Motion<Dim> motion = load_motion<Dim>(settings, dt, c, i);
-  const double start_volume = 1.0 / c.density[i];
+  const double start_volume = 1.0 / p.density[i];
   const double dilatation = trace<Dim>(motion.rate);
-  const double q = c.viscous_pressure[i];
+  const double q = p.viscous_pressure[i];
   const double viscous = -dt * start_volume * q * dilatation;
   const double work =
-      dt * start_volume * (power<Dim>(s, motion.rate) - c.pressure[i] * dilatation) + viscous;
-  const double energy = c.energy[i] + (work + c.heat[i]);
+      dt * start_volume * (power<Dim>(s, motion.rate) - p.pressure[i] * dilatation) + viscous;
+  const double energy = p.internal_energy[i] + (work + c.heat[i]);
 
   const auto increment = deformation_increment(motion.F);
   const double ratio = increment.volume_ratio;
-  const double density = c.density[i] / ratio;
-  const bool failed_before = Spall && c.failed[i] != 0;
+  const double density = p.density[i] / ratio;
+  const bool failed_before = Spall && p.failed[i] != 0;
   const auto [start, trial] =
       trial_stress<Dim>(increment, s, failed_before ? 0.0 : m.strength.shear);
   if constexpr (kinematic) alpha = rotate(increment.rotation, alpha);
@@ -235,13 +195,13 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
   if constexpr (How == Yielding::known) {
     mapped = return_by<Dim>(c.plastic_increment[i], m.strength.shear, start, trial);
   } else {
-    mapped = radial_return<Dim, kinematic>(m.strength, start, trial, alpha, c.strain[i]);
+    mapped = radial_return<Dim, kinematic>(m.strength, start, trial, alpha, p.plastic_strain[i]);
   }
 
   const double volume = 1.0 / density;
   const double heat_per_volume =
       m.plastic_heat == PlasticHeat::work ? mapped.plastic_work : mapped.dissipation;
-  const double plastic_work = c.work[i] + 0.5 * (start_volume + volume) * heat_per_volume;
+  const double plastic_work = p.plastic_work[i] + 0.5 * (start_volume + volume) * heat_per_volume;
   double stored = m.deviatoric_energy(contract<Dim>(mapped.deviator, mapped.deviator), density);
   if constexpr (kinematic) {
     stored += m.back_stress_energy(contract<Dim>(mapped.back_stress, mapped.back_stress), density);
@@ -252,7 +212,7 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
     const bool fails = failed_before || eos.pressure < -m.spall;
     if constexpr (Conserving) eos.pressure += fails ? m.eos.gamma * density * stored : 0.0;
     release<Dim>(m.eos, fails, mapped, eos);
-    c.failed[i] = fails ? 1 : 0;
+    p.failed[i] = fails ? 1 : 0;
   }
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;
@@ -262,23 +222,23 @@ inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& 
                    motion.dilatation, c.viscous_linear[i], c.viscous_quadratic[i],
                    motion.strain_rate, motion.speed);
 
-  for (int k = 0; k < size; ++k) c.deviator[k][i] = mapped.deviator[k];
+  for (int k = 0; k < size; ++k) p.deviator[k][i] = mapped.deviator[k];
   if constexpr (kinematic) {
-    for (int k = 0; k < size; ++k) c.back_stress[k][i] = mapped.back_stress[k];
+    for (int k = 0; k < size; ++k) p.back_stress[k][i] = mapped.back_stress[k];
   }
-  c.density[i] = density;
-  c.energy[i] = energy;
-  c.strain[i] += mapped.plastic_strain_increment;
-  c.work[i] = plastic_work;
-  c.pressure[i] = eos.pressure;
-  c.viscous_pressure[i] = next.pressure;
-  results.limit[local] = next.limit;
-  results.viscous[local] = c.mass[i] * viscous;
-  results.eta[local] = 1.0 - m.eos.density * volume;
-  results.sound_speed2[local] = eos.sound_speed2;
-  results.volume_ratio[local] = ratio;
-  results.energy[local] = energy;
-  results.travel[local] = dt * motion.speed;
+  p.density[i] = density;
+  p.internal_energy[i] = energy;
+  p.plastic_strain[i] += mapped.plastic_strain_increment;
+  p.plastic_work[i] = plastic_work;
+  p.pressure[i] = eos.pressure;
+  p.viscous_pressure[i] = next.pressure;
+  results.limit[i] = next.limit;
+  results.viscous[i] = p.mass[i] * viscous;
+  results.eta[i] = 1.0 - m.eos.density * volume;
+  results.sound_speed2[i] = eos.sound_speed2;
+  results.volume_ratio[i] = ratio;
+  results.energy[i] = energy;
+  results.travel[i] = dt * motion.speed;
 }
 
 }  // namespace poreshock

@@ -49,11 +49,6 @@ bool sound_clock(const RunState& state) {
          std::isfinite(state.last_dt) && state.last_dt >= 0.0;
 }
 
-bool same_columns(const ParticleOptions& a, const ParticleOptions& b) {
-  return a.affine == b.affine && a.quadratic == b.quadratic && a.back_stress == b.back_stress &&
-         a.conducted_heat == b.conducted_heat && a.failed == b.failed && a.facing == b.facing;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -73,7 +68,7 @@ void require_sound_state(const std::string& path, const Scene& scene,
   add(counts[2], "particles without mass or density");
   add(counts[3], "particles of a material that the scene does not have");
   if (!sound_clock(state)) found += found.empty() ? "a clock before zero" : ", a clock before zero";
-  if (!same_columns(expected, particles.options)) {
+  if (expected != particles.options) {
     found += std::string(found.empty() ? "" : ", ") + "columns that do not fit the scene";
   }
   if (found.empty()) return;
