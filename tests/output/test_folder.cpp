@@ -30,6 +30,7 @@ TEST(OutputFolder, IsMadeWithItsParents) {
   lock.reset();
   MPI_Barrier(world);
   EXPECT_TRUE(std::filesystem::is_empty(folder / "a/b"));
+  MPI_Barrier(world);
   // An empty one is as good as none.
   lock = prepare_output_folder(folder / "a/b", false, false, world);
 }
