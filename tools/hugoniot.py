@@ -23,11 +23,11 @@ def main(names):
         return 2
     for name in names:
         try:
-            rows, notes = profiles.compare(Path(name))
+            shock = profiles.measure(Path(name))
         except reader.Missing as reason:
             print(f"tools/hugoniot.py: {name}: {reason}", file=sys.stderr)
             return 1
-        print("\n".join([f"**{name}**", "", *markdown(rows), "", *notes, ""]))
+        print("\n".join([f"**{name}**", "", *markdown(profiles.table_rows(shock)), "", *shock.notes, ""]))
     return 0
 
 

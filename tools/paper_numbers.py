@@ -12,7 +12,6 @@ import sys
 import h5py
 import numpy as np
 
-from poreshock_report import figures
 from poreshock_report import folder as reader
 
 # Figure 2 and its text: rise above 300 K, area fraction at the end of loading.
@@ -60,7 +59,7 @@ def column(folder):
              f"{found['coldest before']:.1f} K ({found['cold']:.1e} of the mass)",
              f"{found['coldest']:.1f} K"]
     history, _ = reader.read_history(folder)
-    return rows + [f"{100.0 * reader.numerical_share(history)[-1]:.1f} %", f"{figures.drift(history).max():.1e}",
+    return rows + [f"{100.0 * reader.numerical_share(history)[-1]:.1f} %", f"{reader.drift(history).max():.1e}",
                    f"{history['guards'][-1]:.0f}"]
 
 

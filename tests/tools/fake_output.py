@@ -25,7 +25,7 @@ cell = 10e-6
 low = {{ kind = "wall", velocity = 0.0 }}
 high = {{ kind = "free", velocity = 0.0 }}
 [loading]
-velocity = 1100.0
+velocity = {velocity}
 [sample]
 kind = "random_voids"
 material = "aluminium"
@@ -83,23 +83,28 @@ def write_snapshots(folder, times, dimension):
                 file[f"particles/{name}"] = values
 
 
-def write_morphology(folder, times):
+def write_morphology(folder, times, dimension):
     """One small file per record, as a run that has not ended leaves them."""
+    names = {"A": "A", "L": "L", "chi4": "chi4"} if dimension == 2 else {"A": "volume", "L": "S", "chi4": "chi6"}
     for number, time in enumerate(times):
         done = time / times[-1]
         hot = 1.0 / (1.0 + numpy.exp((THRESHOLDS - HOT) / 40.0))
         with h5py.File(folder / f"morphology_{number:06d}.h5", "w") as file:
             group = file.create_group("temperature")
             group["time"], group["threshold"], group["record"] = [time], THRESHOLDS, [number]
-            group["A"] = [done * hot]
-            group["L"] = [0.8 * done * hot * (1.0 - hot)]
-            group["chi"] = [-0.01 * done * (THRESHOLDS - HOT) / 100.0 * hot * (1.0 - hot)]
+            group[names["A"]] = [done * hot]
+            group[names["L"]] = [0.8 * done * hot * (1.0 - hot)]
+            group["chi_paper"] = [-0.01 * done * (THRESHOLDS - HOT) / 100.0 * hot * (1.0 - hot)]
+            # Every void counts as a hole of the pixels.
+            group["chi"] = group["chi_paper"][()] - 0.05
             # At 550 K and above half of chi is a matter of how pixels join.
-            group["chi4"] = group["chi"][()] * numpy.where(THRESHOLDS < 550.0, 1.0, 1.5)
+            group[names["chi4"]] = group["chi"][()] * numpy.where(THRESHOLDS < 550.0, 1.0, 1.5)
+            if dimension == 3:
+                group["M"] = [0.1 * done * hot * (1.0 - hot)]
             # One hot spot more each record.
             group["domains/record"] = numpy.full(number, number)
             group["domains/threshold"] = numpy.full(number, 600.0)
-            group["domains/area"] = 1e-10 * numpy.arange(1.0, number + 1.0)
+            group["domains/area" if dimension == 2 else "domains/volume"] = 10.0**(-5 * dimension) * numpy.arange(1.0, number + 1.0)
             group["domains/peak"] = 650.0 + 10.0 * numpy.arange(number)
 
 
@@ -146,9 +151,9 @@ def write_timings(folder):
 def write_output(folder, thermal="paper", dimension=2):
     """Fills `folder` with everything the report reads."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "scene.toml").write_text(SCENE.format(thermal=thermal))
+    (folder / "scene.toml").write_text(SCENE.format(thermal=thermal, velocity=SPEED))
     write_snapshots(folder, [0.0, 50e-9, 100e-9, 150e-9, 200e-9], dimension)
-    write_morphology(folder, numpy.linspace(0.0, 200e-9, 21))
+    write_morphology(folder, numpy.linspace(0.0, 200e-9, 21), dimension)
     write_profiles(folder, numpy.linspace(0.0, 200e-9, 41))
     write_history(folder, numpy.linspace(0.0, 200e-9, 101))
     write_timings(folder)

@@ -12,10 +12,10 @@ import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 from fake_output import write_output  # noqa: E402
-from poreshock_report import page  # noqa: E402
+from poreshock_report import comparison, page  # noqa: E402
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-FRAME = """<!DOCTYPE html><iframe id="f" src="report.html" style="width:390px;height:800px;border:0"></iframe>
+FRAME = """<!DOCTYPE html><iframe id="f" src="PAGE" style="width:390px;height:800px;border:0"></iframe>
 <script>document.getElementById("f").onload = function (event) {
   document.title = "width " + event.target.contentDocument.documentElement.scrollWidth; };</script>"""
 
@@ -29,6 +29,8 @@ class Browser(unittest.TestCase):
         cls.folder = Path(temporary.name) / "run"
         write_output(cls.folder)
         page.write(cls.folder)
+        write_output(cls.folder.parent / "other")
+        comparison.write(cls.folder.parent / "other", cls.folder)
 
     def chromium(self, name, *options):
         command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--allow-file-access-from-files",
@@ -43,9 +45,20 @@ class Browser(unittest.TestCase):
         self.assertEqual(len(frames), 5)
 
     def test_nothing_sticks_out_of_a_phone(self):
-        (self.folder / "phone.html").write_text(FRAME)
+        for name in ("report.html", "compared_with_other.html"):
+            (self.folder / "phone.html").write_text(FRAME.replace("PAGE", name))
+            text = self.chromium("phone.html", "--dump-dom", "--virtual-time-budget=5000")
+            self.assertIn("<title>width 390</title>", text, name)
+
+    def test_a_phone_shows_the_summary_first(self):
+        (self.folder / "phone.html").write_text(FRAME.replace("PAGE", "report.html").replace(
+            '"width " + event.target.contentDocument.documentElement.scrollWidth',
+            """"top " + ["table", ".warning, .fine", "#movie"].map(function (name) {
+    return event.target.contentDocument.querySelector("#summary " + name).getBoundingClientRect().top; })"""))
         text = self.chromium("phone.html", "--dump-dom", "--virtual-time-budget=5000")
-        self.assertIn("<title>width 390</title>", text)
+        tops = [float(entry) for entry in re.search("<title>top (.*?)</title>", text)[1].split(",")]
+        self.assertEqual(tops, sorted(tops))
+        self.assertLess(tops[0], 400)  # pixels: the figures of the shock are on the first screen
 
     def test_the_page_is_drawn(self):
         self.chromium("report.html", "--window-size=800,3000", f"--screenshot={self.folder / 'page.png'}")

@@ -91,8 +91,12 @@ class Measuring(unittest.TestCase):
         self.folder = Path(self.temporary.name) / "run"
         write_output(self.folder, "conserving")
 
+    def table(self):
+        shock = profiles.measure(self.folder)
+        return profiles.table_rows(shock), shock.notes
+
     def test_known_front_and_state(self):
-        rows, notes = profiles.compare(self.folder)
+        rows, notes = self.table()
         measured = {row[0]: row[1] for row in rows}
         self.assertEqual(measured, {
             "Us [m/s]": "3300.0", "Up [m/s]": "1100.0", "P [GPa]": "6.9300",  # 0.99 of the stress of the solid
@@ -117,28 +121,28 @@ class Measuring(unittest.TestCase):
         numpy.testing.assert_allclose(state.spread, 0.0, atol=1e-3)
 
     def test_small_files_of_an_unfinished_run_give_the_same(self):
-        whole = profiles.compare(self.folder)
+        whole = self.table()
         (self.folder / "profiles.h5").unlink()
         write_profiles(self.folder, numpy.linspace(0.0, 200e-9, 41), whole=False)
-        self.assertEqual(profiles.compare(self.folder), whole)
+        self.assertEqual(self.table(), whole)
         (self.folder / "profile_000040.h5").write_bytes(b"\x89HDF")
         self.assertEqual(len(profiles.read(self.folder).time), 40)
 
     def test_what_is_missing_is_named(self):
         write_profiles(self.folder, [0.0, 100e-9, 200e-9])
         with self.assertRaisesRegex(reader.Missing, "200 um from the wall in 2 records"):
-            profiles.compare(self.folder)
+            profiles.measure(self.folder)
         (self.folder / "profiles.h5").unlink()
         with self.assertRaisesRegex(reader.Missing, "no profiles.h5"):
-            profiles.compare(self.folder)
+            profiles.measure(self.folder)
         (self.folder / "scene.toml").write_text('[boundary]\nlow = "free"\n')
         with self.assertRaisesRegex(reader.Missing, "describe the shock"):
-            profiles.compare(self.folder)
+            profiles.measure(self.folder)
 
     def test_void_fraction_is_that_of_the_made_sample(self):
         with h5py.File(self.folder / "profiles.h5", "r+") as file:
             file["row/solid_fraction"][0] *= 0.9
-        _, notes = profiles.compare(self.folder)
+        notes = profiles.measure(self.folder).notes
         self.assertTrue(notes[0].startswith("Void fraction 0.3700,"), notes[0])
 
     def test_command(self):

@@ -77,6 +77,14 @@ def numerical_share(columns):
     return numpy.where(heat > 0.0, numerical / numpy.where(heat > 0.0, heat, 1.0), numpy.nan)
 
 
+def drift(columns):
+    """|total - first total| / |first total| of each row of the history."""
+    total = columns["total"]
+    if total[0] == 0.0:
+        raise Missing("the total energy starts at zero, so its drift has no scale")
+    return numpy.abs(total - total[0]) / abs(total[0])
+
+
 def snapshot_times(folder):
     """Sorted list of (time, path) of the snapshots that can be read."""
     found = []

@@ -1,14 +1,16 @@
-"""Snapshots one at a time, with a slider for the time. Without a script all are on the page one below the other."""
-import base64
+"""Snapshots one at a time: a small movie, and a slider for the time. Without a script all are one below the other."""
 import html
 import io
 
 import numpy
+from PIL import Image
 
-from . import figures
+from . import figures, markup
 from . import folder as reader
+from .style import HEAT, plt
 
-MOST = 14  # frames, each some ten kilobytes
+MOST = 24  # frames, each some ten kilobytes
+MILLISECONDS = 250  # of a frame of the movie; the last one stays eight times as long
 
 SCRIPT = """
 <script>
@@ -34,38 +36,49 @@ def choose(times):
     return sorted({int(round(i)) for i in numpy.linspace(0, len(times) - 1, min(MOST, len(times)))})
 
 
-def draw(piece, extent, pixel, scale):
+def draw(time, piece, extent, pixel, scale):
     """One frame as the bytes of a PNG."""
     wide, high, to_scale = figures.panel_size(*(end[1] - end[0] for end in extent))
-    figure, axis = figures.plt.subplots(figsize=(wide + 1.9, high + 0.7), layout="constrained")
+    figure, axis = plt.subplots(figsize=(wide + 1.9, high + 0.9), layout="constrained")
     mean, spans = figures.pixel_mean(*piece[:3], extent, pixel)
-    image = axis.imshow(mean, origin="lower", extent=[1e3 * end for span in spans for end in span], cmap="turbo",
+    image = axis.imshow(mean, origin="lower", extent=[1e3 * end for span in spans for end in span], cmap=HEAT,
                         vmin=scale[0], vmax=scale[1], interpolation="nearest", aspect="equal" if to_scale else "auto")
-    axis.set(xlim=[1e3 * end for end in extent[0]], ylim=[1e3 * end for end in extent[1]],
+    axis.set(xlim=[1e3 * end for end in extent[0]], ylim=[1e3 * end for end in extent[1]], title=time,
              ylabel="along the shock axis [mm]", xlabel="across [mm]" + ("" if to_scale else ", stretched"))
     axis.locator_params(axis="x", nbins=3 if wide > 0.8 else 1)
     axis.grid(False)
     figure.colorbar(image, ax=axis, label="temperature [K]", extend="max")
     data = io.BytesIO()
     figure.savefig(data, format="png", dpi=90)
-    figures.plt.close(figure)
+    plt.close(figure)
     return data.getvalue()
 
 
-def section(folder):
-    """The frames of a run as a section of the page; Missing without snapshots."""
+def draw_all(folder):
+    """[(time as text, PNG)] of the snapshots on one scale of temperature; Missing without snapshots."""
     times = reader.snapshot_times(folder)
-    chosen = [(times[i][0], figures.read_slice(times[i][1])) for i in choose(times)]
+    chosen = [(f"{1e9 * times[i][0]:.4g} ns", figures.read_slice(times[i][1])) for i in choose(times)]
     pieces = [piece for _, piece in chosen]
-    extent = figures.common_extent(pieces)
+    extent = figures.common_extent(pieces, figures.width_of(folder))
     pixel = max(max(piece[3] for piece in pieces), max(high - low for low, high in extent) / 700.0)
-    everything = numpy.concatenate([piece[2] for piece in pieces])
-    low = float(everything.min())
-    scale = low, max(float(numpy.percentile(everything, 99.5)), low + 1.0)
-    parts = []
-    for time, piece in chosen:
-        text = f"{1e9 * time:.4g} ns"
-        code = base64.b64encode(draw(piece, extent, pixel, scale)).decode()
-        parts.append(f'<figure data-time="{text}"><img src="data:image/png;base64,{code}" alt="temperature at {text}">'
-                     f"<figcaption>{html.escape(text)}</figcaption></figure>")
+    scale = figures.common_scale(pieces)
+    return [(time, draw(time, piece, extent, pixel, scale)) for time, piece in chosen]
+
+
+def movie(folder, drawn):
+    """The frames as an animated WebP, saved as pictures/temperature.webp; readers who want no motion see the last frame."""
+    images = [Image.open(io.BytesIO(data)).convert("RGB") for _, data in drawn]
+    data = io.BytesIO()
+    images[0].save(data, format="WEBP", save_all=True, append_images=images[1:], quality=60, method=4, loop=0,
+                   duration=[MILLISECONDS] * (len(images) - 1) + [8 * MILLISECONDS])
+    markup.save(folder, "temperature.webp", data.getvalue())
+    return (f'<figure><picture><source media="(prefers-reduced-motion: reduce)" srcset="{markup.inline(drawn[-1][1])}">'
+            f'<img id="movie" src="{markup.inline(data.getvalue(), "webp")}" alt="temperature from {drawn[0][0]} to '
+            f'{drawn[-1][0]}"></picture></figure>')
+
+
+def section(drawn):
+    """HTML of the frames with their slider."""
+    parts = [f'<figure data-time="{time}"><img src="{markup.inline(data)}" alt="temperature at {time}">'
+             f"<figcaption>{html.escape(time)}</figcaption></figure>" for time, data in drawn]
     return f'<div id="frames">{"".join(parts)}</div>{SCRIPT}'

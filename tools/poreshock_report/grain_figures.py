@@ -1,9 +1,9 @@
 """Pictures of runs with several grains: the grains beside their temperature, and contact against time."""
-import matplotlib.pyplot as plt
 import numpy
 
 from . import figures
 from . import folder as reader
+from .style import HEAT, plt
 
 CONTACT = ("contact_nodes", "crowded_nodes", "least_gap", "penetration", "momentum_residual")
 SHADES = 12  # grains of neighbouring numbers get different ones
@@ -18,42 +18,56 @@ def present(folder):
         return False
 
 
+def outlined(values, grain):
+    """The values without the pixels at which a grain ends, so that grains of like colour stay apart."""
+    edge = numpy.zeros(values.shape, bool)
+    edge[:, 1:] |= (grain[:, 1:] != grain[:, :-1]) & numpy.isfinite(grain[:, 1:] + grain[:, :-1])
+    edge[1:] |= (grain[1:] != grain[:-1]) & numpy.isfinite(grain[1:] + grain[:-1])
+    return numpy.where(edge, numpy.nan, values)
+
+
+def maps(state, piece, extent, pixel, scale):
+    """[(pixels, colours, range)] of one snapshot by grain, by velocity field where it has them, and by temperature; and
+    the spans of the pixels."""
+    across, along, temperature, _ = piece
+    grain = last_on_pixels(across, along, state["grain"].astype(float), extent, pixel)
+    # Seven steps in a circle of twelve keep grains of neighbouring numbers apart.
+    found = [(outlined(grain * 7 % SHADES, grain), "Paired", (-0.5, SHADES - 0.5))]
+    if "colour" in state:
+        fields = last_on_pixels(across, along, state["colour"].astype(float), extent, pixel)
+        found.append((outlined(fields, grain), "tab10", (-0.5, FIELDS + 1.5)))
+    mean, spans = figures.pixel_mean(across, along, temperature, extent, pixel)
+    return [*found, (mean, HEAT, scale)], spans
+
+
+def read_states(snapshots):
+    """Particles of snapshots, with their velocity fields where all of them have these."""
+    names = ("position", "temperature", "mass", "density", "grain")
+    coloured = all(reader.has_dataset(path, "colour") for _, path in snapshots)
+    return [reader.read_particles(path, names + (("colour",) if coloured else ())) for _, path in snapshots]
+
+
 def grains(folder):
     """First, middle and last snapshot: by grain, by velocity field where the snapshots have it, by temperature."""
     times = reader.snapshot_times(folder)
     chosen = [times[i] for i in sorted({0, len(times) // 2, len(times) - 1})]
-    names = ("position", "temperature", "mass", "density", "grain")
-    coloured = all(reader.has_dataset(path, "colour") for _, path in chosen)
-    states = [reader.read_particles(path, names + (("colour",) if coloured else ())) for _, path in chosen]
+    states = read_states(chosen)
     if states[0]["position"].shape[1] != 2:
         raise reader.Missing("grains are drawn in 2-D only")
     pieces = [figures.slice_of(state) for state in states]
     if not all(len(piece[0]) for piece in pieces):
         raise reader.Missing("a snapshot holds no particles")
-    extent = figures.common_extent(pieces)
+    extent, scale = figures.common_extent(pieces, figures.width_of(folder)), figures.common_scale(pieces)
     width, height = (high - low for low, high in extent)
     panel, tall, to_scale = figures.panel_size(width, height)
-    hottest = max(numpy.percentile(piece[2], 99.5) for piece in pieces)
-    coldest = min(min(piece[2].min() for piece in pieces), hottest - 1.0)
-    count = 3 if coloured else 2
+    count = 3 if "colour" in states[0] else 2
     figure, axes = plt.subplots(count, len(chosen), sharex=True, sharey=True, squeeze=False, layout="compressed",
                                 figsize=((panel + 0.15) * len(chosen) + 2.0, count * tall + 1.5))
     for column, ((time, _), state, piece) in enumerate(zip(chosen, states, pieces)):
-        pixel = max(piece[3], max(width, height) / 1500.0)
-        # Seven steps in a circle of twelve keep grains of neighbouring numbers apart.
-        shade = (state["grain"] * 7) % SHADES
-        across, along = piece[0], piece[1]
-        rows = [(shade, "Paired", (-0.5, SHADES - 0.5)), (piece[2], "turbo", (coldest, hottest))]
-        if coloured:
-            rows.insert(1, (state["colour"], "Set1", (-0.5, FIELDS + 0.5)))
-        for axis, (values, colours, span) in zip(axes[:, column], rows):
-            if colours != "turbo":
-                cells, spans = last_on_pixels(across, along, values.astype(float), extent, pixel)
-            else:
-                cells, spans = figures.pixel_mean(across, along, values, extent, pixel)
+        found, spans = maps(state, piece, extent, max(piece[3], max(width, height) / 1500.0), scale)
+        for axis, (cells, colours, (low, high)) in zip(axes[:, column], found):
             image = axis.imshow(cells, origin="lower", extent=[1e3 * end for pair in spans for end in pair], cmap=colours,
-                                vmin=span[0], vmax=span[1], interpolation="nearest",
-                                aspect="equal" if to_scale else "auto")
+                                vmin=low, vmax=high, interpolation="nearest", aspect="equal" if to_scale else "auto")
             axis.grid(False)
         axes[0][column].set_title(f"{1e9 * time:.4g} ns")
         axes[-1][column].set_xlabel("across [mm]")
@@ -65,7 +79,7 @@ def grains(folder):
 
 def last_on_pixels(across, along, values, extent, pixel):
     """On each square pixel the value of one of its particles, NaN without any: a mean of grain numbers is no grain."""
-    shape = [max(1, int(numpy.ceil((high - low) / pixel))) for low, high in extent]
+    shape = [max(1, int(numpy.ceil((high - low) / pixel - 1e-6))) for low, high in extent]
     cells = numpy.full(shape, numpy.nan)
     index = [numpy.clip(((place - low) / pixel).astype(int), 0, count - 1)
              for place, (low, _), count in zip((across, along), extent, shape)]
@@ -74,7 +88,7 @@ def last_on_pixels(across, along, values, extent, pixel):
     filled = numpy.isfinite(figures.pixel_mean(across, along, values, extent, pixel)[0].T)
     for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
         cells = numpy.where(filled & numpy.isnan(cells), numpy.roll(cells, step, axis), cells)
-    return cells.T, [(low, low + count * pixel) for (low, _), count in zip(extent, shape)]
+    return cells.T
 
 
 def contact(folder):

@@ -14,6 +14,7 @@ ENTRY = 20  # cells, and two void diameters: the front counts only when it is th
 DISTANCE = 10  # cells, and two void diameters: the state counts only that far behind the front
 LEAST_ROWS = 10
 LEAST_RECORDS = 5
+POROUS = 1e-3  # void fraction from which on a sample counts as porous
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,7 @@ class Setting:
     void_diameter: float
     void_fraction: float  # the wanted one
     thermal: str
+    linear: bool  # the yield stress rises linearly, as in the exact solution
 
 
 def setting_of(scene):
@@ -84,7 +86,8 @@ def setting_of(scene):
                        scene["loading"]["velocity"] + low.get("velocity", 0.0),
                        sample.get("height", size[-1]),
                        2.0 * sample.get("void_radius", 0.0) if voids else 0.0,
-                       sample.get("porosity", 0.0) if voids else 0.0, str(scene.get("thermal")))
+                       sample.get("porosity", 0.0) if voids else 0.0, str(scene.get("thermal")),
+                       chosen.get("strength", "linear") == "linear")
     except (KeyError, ValueError) as error:
         raise reader.Missing(f"scene.toml does not describe the shock: {error}") from None
 
@@ -193,13 +196,13 @@ def references(setting, voids):
         return (speed, setting.velocity, stress, stress, stress, state.density, state.temperature, state.temperature)
 
     try:
-        solid = plate_exact.solve(setting.material, setting.velocity).final
+        solid = plate_exact.solve(setting.material, setting.velocity, setting.thermal).final
         first = row(solid, solid.front, solid.stress)
         plow = hugoniot.snow_plow(setting.material, voids, setting.velocity)
     except ValueError:
         raise reader.Missing("the impact is elastic, or beyond the equation of state") from None
     alpha = None
-    if voids > 1e-3:
+    if voids > POROUS:
         state = hugoniot.p_alpha(setting.material, voids, setting.velocity, setting.dimension)
         alpha = row(state, state.speed, state.pressure)
     return first, row(plow, plow.speed, plow.pressure), alpha
@@ -210,6 +213,17 @@ QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e
               ("momentum flux [GPa]", 1e9, ".4f"), ("P at the wall [GPa]", 1e9, ".4f"),
               ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
               ("T + fluctuation / c_v [K]", 1.0, ".1f"))
+
+
+@dataclass(frozen=True)
+class Shock:
+    """What was measured of the shock of a run, in the order of QUANTITIES, SI units, NaN where it is not known."""
+    setting: Setting
+    voids: float  # void fraction of the sample as it was made
+    values: tuple
+    errors: tuple
+    curves: tuple  # of `references`
+    notes: list  # sentences that say how it was measured
 
 
 def method(setting, profiles, fit, state, voids):
@@ -229,33 +243,38 @@ def method(setting, profiles, fit, state, voids):
         "residual motion beside the stress; P at the wall is the wall impulse over area and time.",
         "Curves: the solid with strength, complete collapse without strength (snow-plow), and P-alpha with the "
         f"static crush curve of {'cylinders' if setting.dimension == 2 else 'spheres'}."]
-    if setting.thermal == "paper":
-        notes.append("The curves hold for thermal = \"conserving\"; in paper mode T leaves out heat that they have.")
+    if setting.thermal == "paper" and voids > POROUS:
+        notes.append("The curves of porous material hold for thermal = \"conserving\"; in paper mode T leaves out heat "
+                     "that they have.")
     return notes
 
 
-def compare(folder):
-    """Rows of the Hugoniot table (HEAD) of a run, and sentences that say how it was measured."""
+def measure(folder):
+    """The shock of a run."""
     scene = reader.read_scene(folder)
     setting, profiles = setting_of(scene), read(folder)
     fit = fit_front(profiles, setting)
     state = state_behind(profiles, setting, fit)
     voids = void_fraction(profiles, setting)
     spread = dict(zip(state.names, state.spread))
-    cv = setting.material.cv
     measured = (fit.slope + setting.velocity, state["velocity"], state["stress"], state["momentum_flux"],
                 wall_stress(folder, scene, profiles, fit), state["density"], state["temperature"],
-                state["temperature"] + state["fluctuation"] / cv)
+                state["temperature"] + state["fluctuation"] / setting.material.cv)
     errors = (fit.error, spread["velocity"], spread["stress"], spread["momentum_flux"], numpy.nan, spread["density"],
               spread["temperature"], numpy.nan)
-    curves, rows = references(setting, voids), []
+    return Shock(setting, voids, measured, errors, references(setting, voids), method(setting, profiles, fit, state, voids))
+
+
+def table_rows(shock):
+    """Rows of the Hugoniot table (HEAD)."""
+    rows = []
     for i, (name, unit, digits) in enumerate(QUANTITIES):
-        if not numpy.isfinite(measured[i]):
+        if not numpy.isfinite(shock.values[i]):
             continue
-        row = [name, format(measured[i] / unit, digits),
-               format(errors[i] / unit, digits) if numpy.isfinite(errors[i]) else "-"]
-        for curve in curves:
+        row = [name, format(shock.values[i] / unit, digits),
+               format(shock.errors[i] / unit, digits) if numpy.isfinite(shock.errors[i]) else "-"]
+        for curve in shock.curves:
             row += ["-", "-"] if curve is None else [
-                format(curve[i] / unit, digits), f"{100.0 * (measured[i] / curve[i] - 1.0):+.2f} %"]
+                format(curve[i] / unit, digits), f"{100.0 * (shock.values[i] / curve[i] - 1.0):+.2f} %"]
         rows.append(row)
-    return rows, method(setting, profiles, fit, state, voids)
+    return rows
