@@ -50,15 +50,30 @@ class Browser(unittest.TestCase):
             text = self.chromium("phone.html", "--dump-dom", "--virtual-time-budget=5000")
             self.assertIn("<title>width 390</title>", text, name)
 
-    def test_a_phone_shows_the_summary_first(self):
+    def measured_on_a_phone(self, expression):
+        """Numbers that a JavaScript expression gives for the document `page`."""
         (self.folder / "phone.html").write_text(FRAME.replace("PAGE", "report.html").replace(
-            '"width " + event.target.contentDocument.documentElement.scrollWidth',
-            """"top " + ["table", ".warning, .fine", "#movie"].map(function (name) {
-    return event.target.contentDocument.querySelector("#summary " + name).getBoundingClientRect().top; })"""))
+            '"width " + event', f'"found " + (function (page) {{ return {expression}; }})(event.target.contentDocument); event'))
         text = self.chromium("phone.html", "--dump-dom", "--virtual-time-budget=5000")
-        tops = [float(entry) for entry in re.search("<title>top (.*?)</title>", text)[1].split(",")]
+        return [float(entry) for entry in re.search("<title>found (.*?)</title>", text)[1].split(",")]
+
+    def test_a_phone_shows_the_summary_first(self):
+        tops = self.measured_on_a_phone("""["table", ".warning, .fine", "#movie"].map(function (name) {
+            return page.querySelector("#summary " + name).getBoundingClientRect().top; })""")
         self.assertEqual(tops, sorted(tops))
         self.assertLess(tops[0], 400)  # pixels: the figures of the shock are on the first screen
+
+    def test_the_summary_needs_no_moving_sideways_on_a_phone(self):
+        beyond = self.measured_on_a_phone("""[...page.querySelectorAll("#summary .scroll")].map(function (box) {
+            return box.scrollWidth - box.clientWidth; })""")
+        self.assertEqual(beyond, [0.0, 0.0])
+
+    def test_letters_of_pictures_can_be_read_on_a_phone(self):
+        # Ten points at 64 pixels an inch, however wide the picture.
+        scale = self.measured_on_a_phone("""[...page.querySelectorAll(".picture img")].map(function (image) {
+            return image.clientWidth / image.naturalWidth * 150; })""")
+        self.assertEqual(len(scale), 8)
+        self.assertGreater(min(scale), 55.0)
 
     def test_the_page_is_drawn(self):
         self.chromium("report.html", "--window-size=800,3000", f"--screenshot={self.folder / 'page.png'}")

@@ -30,6 +30,9 @@ td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 .hidden { display: none; } .slider { display: flex; gap: .8rem; align-items: center; margin: .4rem 0; }
 .slider input { flex: 1; } .slider output { min-width: 5.5rem; font-variant-numeric: tabular-nums; }
 #frames img { max-height: 85vh; width: auto; }
+/* On a phone letters of a picture stay as large as 9 px; what is then wider than the screen is moved sideways. */
+@media (max-width: 40rem) { .picture img { max-width: none; width: calc(var(--inches) * 64px); }
+                            th, td { padding-right: .5rem; } table { font-size: .88rem; } }
 @media print { .slider, #frames figure:not(:last-of-type) { display: none; } body { max-width: none; font-size: 11pt; padding: 0; }
                section { break-inside: avoid; } img { max-height: 22cm; } }
 """
@@ -69,7 +72,8 @@ def picture(folder, name, title, caption, draw):
         figure.savefig(data, format="png", dpi=150, bbox_inches="tight", pad_inches=0.08)
         plt.close(figure)
         save(folder, f"{name}.png", data.getvalue())
-        return (f'<figure><img src="{inline(data.getvalue())}" alt="{html.escape(title)}">'
+        return (f'<figure><div class="scroll picture"><img style="--inches:{figure.get_figwidth():.3g}" '
+                f'src="{inline(data.getvalue())}" alt="{html.escape(title)}"></div>'
                 f"<figcaption>{html.escape(caption)}</figcaption></figure>")
 
     return section(title, body)

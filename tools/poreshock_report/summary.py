@@ -45,13 +45,13 @@ def what(folder, scene):
 
 
 def shock_rows(folder):
-    """Head and rows of Us, P and T, with the exact state of solid samples or the snow-plow of porous ones."""
+    """Head and rows of Us, P and T behind the shock, with the exact state of solid samples or the snow-plow of porous ones."""
     shock = profiles.measure(folder)
     porous = shock.voids > profiles.POROUS
     first = 5 if porous else 3
     name = "snow-plow" if porous else "exact" if shock.setting.linear else "solid"
     rows = {row[0]: (row[0], row[1], row[2], row[first], row[first + 1]) for row in profiles.table_rows(shock)}
-    return ("behind the shock", "measured", "+-", name, "difference"), [rows[key] for key in SHOWN if key in rows]
+    return ("", "run", "+-", name, "off by"), [rows[key] for key in SHOWN if key in rows]
 
 
 def heat_shares(columns):
@@ -133,7 +133,7 @@ def warning_list(folder, scene, start):
 def head(folder, scene, start, movie):
     """HTML of the summary; `movie` is that of the moving picture."""
     parts = [f"<p>{html.escape(what(folder, scene))}</p>"]
-    for make in (lambda: markup.table(*shock_rows(folder)), lambda: heat(folder),
+    for make in (lambda: "<h3>Behind the shock</h3>" + markup.table(*shock_rows(folder)), lambda: heat(folder),
                  lambda: f"<p>Speed: {html.escape(speed(folder))}</p>"):
         try:
             parts.append(make())
