@@ -1,8 +1,10 @@
 """The view of the paper in ParaView: pvpython tools/paraview_view.py RUN [--time NS] [--field temperature]
-[--low 300 --high 900] [--slabs] [--output picture.png]. Without --output a picture lies beside the snapshots.
+[--low 300 --high 900] [--slabs] [--surface 900] [--slices 0.1 0.2] [--output picture.png]. Without --output a picture
+lies beside the snapshots.
 
-The particles of one time, coloured by a field from blue to red as in the paper's figures, inside the outline
-of the grid; with --slabs coloured by the rank that owns them, with the edges of the slabs.
+The particles of one time, coloured by a field from dark to light as in the paper's figures, inside the outline
+of the grid; with --slabs coloured by the rank that owns them, with the edges of the slabs. In three dimensions --surface
+shows where the map of the field reaches a value, and --slices the map at heights in mm instead of the particles.
 """
 import argparse
 import glob
@@ -16,6 +18,7 @@ from paraview.servermanager import Fetch
 from vtkmodules.numpy_interface import dataset_adapter
 
 LIMITS = {"temperature": (300.0, 900.0)}
+HEAT = "Inferno (matplotlib)"  # lightness rises with the value, for all eyes
 
 
 def options():
@@ -26,6 +29,8 @@ def options():
     parser.add_argument("--low", type=float, help="of the colours, in the unit of the field")
     parser.add_argument("--high", type=float)
     parser.add_argument("--slabs", action="store_true", help="colour by the owning rank instead")
+    parser.add_argument("--surface", type=float, help="3-D: value of the field whose surface is shown, in its unit")
+    parser.add_argument("--slices", type=float, nargs="+", help="3-D: heights of slices across the shock axis, mm")
     parser.add_argument("--height", type=int, default=1200, help="of the picture, pixels")
     parser.add_argument("--output")
     return parser.parse_args()
@@ -48,7 +53,8 @@ def values_of(reader, time):
     # Squares that touch in a map of the undeformed solid; the samples are about half dense in the end.
     points = numpy.asarray(data.Points)
     extent = numpy.ptp(points, axis=0)
-    spacing = float(numpy.sqrt(max(extent[0], 1e-30) * max(extent[1], 1e-30) / len(points)))
+    extent = extent[extent > 0.0]
+    spacing = float(numpy.prod(extent) / len(points))**(1.0 / len(extent))
     return points, data.PointData, spacing
 
 
@@ -87,17 +93,81 @@ def slab_edges(points, owner):
         line.LineWidth = 2.0
 
 
-def colour(particles, name, low, high, preset, title):
-    simple.ColorBy(particles, ("POINTS", name))
+def colour(shown, kind, name, limits, preset, title):
+    """Colours what is shown by a field of its points or cells, with a bar."""
+    simple.ColorBy(shown, (kind, name))
     table = simple.GetColorTransferFunction(name)
     table.ApplyPreset(preset, True)
-    table.RescaleTransferFunction(low, high)
+    table.RescaleTransferFunction(limits[0], max(limits[1], limits[0] + 1e-30))
     bar = simple.GetScalarBar(table, simple.GetActiveView())
     bar.Title, bar.ComponentTitle = title, ""
     bar.TitleColor = bar.LabelColor = [0.0, 0.0, 0.0]
     bar.WindowLocation = "Any Location"
     bar.Position, bar.ScalarBarLength = [0.8, 0.25], 0.5
     bar.Visibility = 1
+
+
+def show_particles(reader, spacing, name, limits, slabs):
+    """Discs at the particles."""
+    particles = simple.Show(reader)
+    particles.Representation = "Point Gaussian"
+    particles.GaussianRadius = 0.75 * spacing
+    particles.ShaderPreset = "Plain circle"
+    preset, title = ("Viridis (matplotlib)", "rank") if slabs else (HEAT, name)
+    colour(particles, "POINTS", name, limits, preset, title)
+
+
+def read_map(folder, name, time, empty):
+    """The voxels of a field, `empty` where there is no material; they are measured, not made from the particles."""
+    path = os.path.join(folder, "maps.xdmf")
+    if not os.path.isfile(path):
+        raise SystemExit(f"paraview_view: there is no {path}; surfaces and slices need [morphology] in the scene")
+    voxels = simple.XDMFReader(FileNames=[path])
+    voxels.UpdatePipeline(time)
+    if name not in voxels.CellData.keys():
+        raise SystemExit(f"paraview_view: no map of {name}; there are maps of {', '.join(sorted(voxels.CellData.keys()))}")
+    return simple.PythonCalculator(Input=voxels, ArrayAssociation="Cell Data", ArrayName=name,
+                                   Expression=f"where(isnan({name}), {empty!r}, {name})")
+
+
+def show_surface(voxels, name, level):
+    """The surface at a level, in one colour."""
+    contour = simple.Contour(Input=simple.CellDatatoPointData(Input=voxels), ContourBy=["POINTS", name], Isosurfaces=[level])
+    shown = simple.Show(contour)
+    simple.ColorBy(shown, None)
+    shown.DiffuseColor = [0.84, 0.37, 0.0]
+
+
+def show_slices(voxels, name, heights, limits):
+    """The voxels on planes across the shock axis."""
+    for height in heights:
+        cut = simple.Slice(Input=voxels, SliceType="Plane")
+        cut.SliceType.Origin, cut.SliceType.Normal = [0.0, 0.0, height], [0.0, 0.0, 1.0]
+        shown = simple.Show(cut)
+        shown.Representation = "Surface"
+        colour(shown, "CELLS", name, limits, HEAT, name)
+
+
+def make_view(extent, height, pixels, time):
+    """A white view at a time, of a shape that suits the grid."""
+    width = int(pixels * max(0.45, min(2.0, 1.1 * extent[0] / height + 0.3)))
+    view = simple.CreateRenderView(ViewSize=[width, pixels], OrientationAxesVisibility=0)
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1.0, 1.0, 1.0]
+    simple.SetActiveView(view)
+    view.ViewTime = time
+    return view
+
+
+def place_camera(view, flat, height):
+    """Straight on in 2-D; in 3-D from the side and a little above."""
+    if not flat:
+        view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0.57, -0.78, 0.32], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]
+    simple.ResetCamera()
+    if flat:
+        view.CameraParallelProjection = 1
+        view.CameraParallelScale = 0.53 * height
+    simple.Render(view)
 
 
 def draw(choice):
@@ -112,30 +182,23 @@ def draw(choice):
     values = numpy.asarray(fields[name])
     extent = numpy.ptp(points, axis=0)
     flat = extent[2] == 0.0
+    if flat and (choice.surface is not None or choice.slices):
+        raise SystemExit("paraview_view: --surface and --slices are for runs in three dimensions")
+    limits = [given if given is not None else usual for given, usual in
+              zip((choice.low, choice.high), LIMITS.get(name, (float(values.min()), float(values.max()))))]
     height = (corners[1] - corners[0])[1 if flat else 2]
-    width = int(choice.height * max(0.45, min(2.0, 1.1 * extent[0] / height + 0.3)))
-    view = simple.CreateRenderView(ViewSize=[width, choice.height], OrientationAxesVisibility=0)
-    view.UseColorPaletteForBackground = 0
-    view.Background = [1.0, 1.0, 1.0]
-    simple.SetActiveView(view)
-    view.ViewTime = time
-    particles = simple.Show(reader, view)
-    particles.Representation = "Point Gaussian"
-    particles.GaussianRadius = 0.75 * spacing
-    particles.ShaderPreset = "Plain circle"
-    low, high = LIMITS.get(name, (float(values.min()), float(values.max())))
-    low = choice.low if choice.low is not None else low
-    high = choice.high if choice.high is not None else high
-    colour(particles, name, low, max(high, low + 1e-30), "Viridis (matplotlib)" if choice.slabs else "Jet",
-           "rank" if choice.slabs else name)
+    view = make_view(extent, height, choice.height, time)
+    if choice.surface is not None or choice.slices:
+        voxels = read_map(folder, name, time, float(values.min()))
+        if choice.surface is not None:
+            show_surface(voxels, name, choice.surface)
+        show_slices(voxels, name, [1e-3 * height for height in choice.slices or []], limits)
+    else:
+        show_particles(reader, spacing, name, limits, choice.slabs)
     outline(*corners)
     if choice.slabs:
         slab_edges(points, values)
-    simple.ResetCamera()
-    if flat:
-        view.CameraParallelProjection = 1
-        view.CameraParallelScale = 0.53 * height
-    simple.Render(view)
+    place_camera(view, flat, height)
     target = choice.output or os.path.join(folder, f"paraview_{name}.png")
     simple.SaveScreenshot(target, view)
     print(f"{target}: {len(points)} particles at {time * 1e9:.6g} ns, {name} {values.min():.6g} ... {values.max():.6g}; "

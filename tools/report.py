@@ -1,25 +1,33 @@
 #!/usr/bin/python3
 """Draws the report of an output folder, DIR/report.html and DIR/pictures/; of two folders one page that compares them,
 SECOND/compared_with_FIRST.html.
-
-Usage: tools/report.py DIR | FIRST SECOND
 """
+import argparse
 import sys
 from pathlib import Path
 
 from poreshock_report import comparison, page
 
 
-def main(names):
-    if len(names) not in (1, 2) or any(name.startswith("-") for name in names):
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
-    for name in names:
+def options(arguments):
+    parser = argparse.ArgumentParser(prog="tools/report.py", description=__doc__, allow_abbrev=False)
+    parser.add_argument("folders", metavar="DIR", nargs="+", help="output folder of a run, or two of them")
+    parser.add_argument("--heights", metavar="MM", nargs="+", type=float, default=[],
+                        help="heights of the slices of a run in 3-D, by default four over what has been heated")
+    choice = parser.parse_args(arguments)
+    if len(choice.folders) > 2:
+        parser.error(f"found {len(choice.folders)} folders; give one for its report, or two to compare them")
+    for name in choice.folders:
         if not Path(name).is_dir():
-            print(f"tools/report.py: there is no folder '{name}'", file=sys.stderr)
-            return 1
-    folders = [Path(name) for name in names]
-    written = page.write(*folders) if len(folders) == 1 else comparison.write(*folders)
+            parser.error(f"there is no folder '{name}'")
+    return choice
+
+
+def main(arguments):
+    choice = options(arguments)
+    folders = [Path(name) for name in choice.folders]
+    written = (page.write(folders[0], [1e-3 * height for height in choice.heights]) if len(folders) == 1
+               else comparison.write(*folders))
     print(f"report: {written}")
     return 0
 

@@ -37,6 +37,27 @@ fields = ["temperature"]
 thresholds = [400.0]
 """ + ALUMINIUM
 
+# Solid aluminium: heated to 543 K up to the front, 0.11 mm above the wall at the end.
+PLATE = """
+[domain]
+size = [80e-6, 80e-6, 240e-6]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+[sample]
+kind = "solid"
+height = 220e-6
+[loading]
+velocity = 1100
+[time]
+end = 20e-9
+[morphology]
+every = 20e-9
+fields = ["temperature"]
+thresholds = [400.0]
+""" + ALUMINIUM
+
 READ = """
 import sys
 import numpy
@@ -67,6 +88,8 @@ class ParaView(ProgramTest):
         cls.write("grains.toml", GRAINS)
         cls.run_scene("grains.toml", "run", ranks=3)
         cls.write("read.py", READ)
+        cls.write("plate.toml", PLATE)
+        cls.run_scene("plate.toml", "plate")
 
     def pvpython(self, *arguments):
         # A server that starts anew when its last client leaves refuses the next one for a moment.
@@ -104,23 +127,47 @@ class ParaView(ProgramTest):
         self.assertAlmostEqual(float(total) / numpy.nansum(temperature), 1.0, places=12)
         self.assertAlmostEqual(float(lowest) / numpy.nanmean(temperature[0]), 1.0, places=12)
 
-    def picture(self, *options):
-        text = self.pvpython(ROOT / "tools/paraview_view.py", "run", "--output", "view.png", *options)
+    def picture(self, *options, run="run"):
+        text = self.pvpython(ROOT / "tools/paraview_view.py", run, "--output", "view.png", *options)
         shot = matplotlib.image.imread(self.folder / "view.png")[:, :, :3]
         self.assertEqual(shot.shape[0], 1200)
         return text, shot
 
+    @staticmethod
+    def row_of(where):
+        """Mean row of the pixels, counted from above."""
+        return (where * numpy.arange(1200)[:, None]).sum() / where.sum()
+
     def test_the_view_of_the_paper(self):
         text, shot = self.picture("--time", "40")
         self.assertIn("particles at 40 ns, temperature ", text)
-        red, green, blue = (shot[:, :, k] for k in range(3))
-        cold = (blue > 0.4) & (red < 0.1) & (green < 0.1)
-        hot = (green > 0.5) & (red < 0.6)
+        cold = shot.max(axis=2) < 0.1
+        hot = (shot[:, :, 0] > 0.5) & (shot[:, :, 2] < 0.7)
         # Not yet reached above, heated below; the wall lies low in the picture.
         self.assertGreater(cold.mean(), 0.05)
         self.assertGreater(hot.mean(), 0.005)
-        rows = numpy.arange(1200)[:, None]
-        self.assertGreater((hot * rows).sum() / hot.sum(), (cold * rows).sum() / cold.sum() + 100)
+        self.assertGreater(self.row_of(hot), self.row_of(cold) + 100)
+
+    def test_the_hot_surface_in_three_dimensions(self):
+        _, shot = self.picture("--surface", "450", run="plate")
+        orange = (shot[:, :, 0] > 1.6 * shot[:, :, 1]) & (shot[:, :, 2] < 0.1) & (shot[:, :, 0] > 0.2)
+        self.assertGreater(orange.mean(), 0.01)
+        # Nothing but the front is at 450 K: a plane a little below the middle, seen from above.
+        rows = numpy.flatnonzero(orange.any(axis=1))
+        self.assertLess(rows.max() - rows.min(), 500)
+        self.assertGreater(self.row_of(orange), 600)
+
+    def test_slices_in_three_dimensions(self):
+        _, shot = self.picture("--slices", "0.05", "0.16", run="plate")
+        heated = (shot[:, :, 0] > 0.3) & (shot[:, :, 1] < 0.5 * shot[:, :, 0]) & (shot[:, :, 2] > 0.2)
+        cold = shot.max(axis=2) < 0.1
+        self.assertGreater(heated.mean(), 0.01)
+        self.assertGreater(cold.mean(), 0.01)
+        self.assertGreater(self.row_of(heated), self.row_of(cold) + 200)
+
+    def test_surfaces_are_for_three_dimensions(self):
+        with self.assertRaisesRegex(AssertionError, "--surface and --slices are for runs in three dimensions"):
+            self.picture("--surface", "450")
 
     def test_the_owners_of_the_slabs(self):
         _, shot = self.picture("--slabs")

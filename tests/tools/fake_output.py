@@ -19,7 +19,7 @@ THRESHOLDS = numpy.arange(310.0, 700.0, 10.0)
 SCENE = """title = "Porous aluminium, made up"
 thermal = "{thermal}"
 [domain]
-size = [0.4e-3, 2.0e-3]
+size = {size}
 cell = 10e-6
 [boundary]
 low = {{ kind = "wall", velocity = 0.0 }}
@@ -53,10 +53,13 @@ HISTORY = ("time [s],step [-],dt [s],particles [-],kinetic [J/m],internal [J/m],
            "guards [-]")
 
 
+def sizes(dimension):
+    """Edges of the domain, m."""
+    return [WIDTH, HEIGHT] if dimension == 2 else [WIDTH, 4 * CELL, HEIGHT]
+
+
 def _lattice(dimension):
-    axes = [numpy.arange(CELL / 4, end, CELL / 2) for end in (WIDTH, 4 * CELL, HEIGHT)]
-    if dimension == 2:
-        axes.pop(1)
+    axes = [numpy.arange(CELL / 4, end, CELL / 2) for end in sizes(dimension)]
     points = numpy.stack([axis.ravel() for axis in numpy.meshgrid(*axes, indexing="ij")], axis=1)
     centers = numpy.random.default_rng(1).uniform((0, 0), (WIDTH, HEIGHT), (40, 2))
     flat = points[:, [0, -1]]
@@ -81,6 +84,15 @@ def write_snapshots(folder, times, dimension):
                     "density": numpy.full(len(rest), 2700.0)}
             for name, values in data.items():
                 file[f"particles/{name}"] = values
+            write_map(file, position, temperature, dimension)
+
+
+def write_map(file, position, temperature, dimension):
+    """Mean temperature of the particles in each cell, NaN without any, the shock axis first."""
+    edges = [numpy.arange(round(end / CELL) + 1) * CELL for end in sizes(dimension)]
+    count, total = (numpy.histogramdd(position, edges, weights=weights)[0].T for weights in (None, temperature))
+    file["map/temperature"] = numpy.where(count > 0, total / numpy.maximum(count, 1), numpy.nan)
+    file["map/temperature"].attrs.update({f"low_{axis}": 0.0 for axis in "xyz"[:dimension]} | {"pixel": CELL, "unit": "K"})
 
 
 def write_morphology(folder, times, dimension):
@@ -151,7 +163,7 @@ def write_timings(folder):
 def write_output(folder, thermal="paper", dimension=2):
     """Fills `folder` with everything the report reads."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "scene.toml").write_text(SCENE.format(thermal=thermal, velocity=SPEED))
+    (folder / "scene.toml").write_text(SCENE.format(thermal=thermal, velocity=SPEED, size=sizes(dimension)))
     write_snapshots(folder, [0.0, 50e-9, 100e-9, 150e-9, 200e-9], dimension)
     write_morphology(folder, numpy.linspace(0.0, 200e-9, 21), dimension)
     write_profiles(folder, numpy.linspace(0.0, 200e-9, 41))

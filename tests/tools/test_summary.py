@@ -125,7 +125,7 @@ class Movie(Folders):
         for before, after in zip(shown, shown[1:]):
             self.assertGreater(numpy.abs(after - before).mean(), 0.5)
         self.assertLess(path.stat().st_size, 300_000)
-        self.assertIn('media="(prefers-reduced-motion: reduce)" srcset="data:image/png', text)
+        self.assertIn('media="(prefers-reduced-motion: reduce)" srcset="data:image/webp', text)
         self.assertIn('alt="temperature from 0 ns to 200 ns"', text)
 
 
@@ -164,8 +164,11 @@ class Comparison(Folders):
         self.assertIn("the runs have no snapshots of the same time", comparison.write(self.folder, self.other).read_text())
 
     def test_usage(self):
-        for names in ((), ("--help",), ("a", "b", "c")):
-            self.assertEqual(subprocess.run([TOOLS / "report.py", *names], capture_output=True, check=False).returncode, 2)
+        for names, words in (((), "DIR"), ((self.folder, self.other, self.other), "found 3 folders; give one for its report, or two"),
+                             (("nowhere",), "there is no folder 'nowhere'")):
+            done = subprocess.run([TOOLS / "report.py", *names], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(words, done.stderr)
 
 
 # Simulation of colour vision without red and without green cones, of linear RGB (Machado, Oliveira & Fernandes 2009).

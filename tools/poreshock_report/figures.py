@@ -4,6 +4,7 @@ import numpy
 from . import folder as reader
 from .style import HEAT, plt
 
+WIDEST = 12.0  # inches, of panels side by side
 HOTTEST = 98.0  # percentile of the temperature at which its scale ends: jets are far hotter than all the rest
 
 
@@ -58,23 +59,26 @@ def read_slice(path):
     return piece
 
 
+def within(positions, half, size=None):
+    """Range of positions with `half` a particle beyond the outermost ones, so that these do not lie on the edges of pixels;
+    0 to `size` where all are inside of it."""
+    low, high = positions.min() - half, positions.max() + half
+    return (0.0, size) if size and low >= -half and high <= size + half else (low, high)
+
+
 def common_extent(pieces, width=None):
-    """Lateral and axial range of all pieces, half a particle beyond the outermost ones, so that these do
-    not lie on the edges of pixels; laterally 0 to `width` (m) where all are inside of it."""
+    """Lateral and axial range of all pieces, in a domain of this width (m) or of one that is not known."""
     half = 0.5 * max(piece[3] for piece in pieces)
-    extent = [(min(piece[axis].min() for piece in pieces) - half, max(piece[axis].max() for piece in pieces) + half)
-              for axis in (0, 1)]
-    if width and extent[0][0] >= -half and extent[0][1] <= width + half:
-        extent[0] = 0.0, width
-    return extent
+    along = numpy.concatenate([piece[1] for piece in pieces])
+    return [within(numpy.concatenate([piece[0] for piece in pieces]), half, width), within(along, half)]
 
 
-def width_of(folder):
-    """Width of the domain of a run, m; None where its scene does not say."""
+def sizes_of(folder):
+    """Edges of the domain of a run, m; None for each where its scene does not say."""
     try:
-        return float(reader.read_scene(folder)["domain"]["size"][0])
+        return [float(size) for size in reader.read_scene(folder)["domain"]["size"]]
     except (reader.Missing, KeyError, TypeError, ValueError):
-        return None
+        return [None, None, None]
 
 
 def common_scale(pieces):
@@ -102,12 +106,14 @@ def temperature_panels(snapshots, titles=None):
     """The snapshots, a list of (time, path), side by side on one scale of temperature; the titles say the time by default."""
     titles = titles or [f"{1e9 * time:.4g} ns" for time, _ in snapshots]
     chosen = [(time, read_slice(path)) for time, path in snapshots]
-    extent = common_extent([piece for _, piece in chosen], width_of(snapshots[0][1].parent))
+    extent = common_extent([piece for _, piece in chosen], sizes_of(snapshots[0][1].parent)[0])
     width, height = (high - low for low, high in extent)
     pixel = max(max(piece[3] for _, piece in chosen), max(width, height) / 1500.0)
     low, high = common_scale([piece for _, piece in chosen])
 
     panel, tall, to_scale = panel_size(width, height)
+    shrink = min(1.0, WIDEST / (panel * len(chosen)))
+    panel, tall = shrink * panel, (shrink if to_scale else 1.0) * tall
     figure, axes = plt.subplots(1, len(chosen), sharey=True, squeeze=False,
                                 layout="compressed" if to_scale else "constrained",
                                 figsize=((panel + 0.15) * len(chosen) + 2.0, tall + 1.0))

@@ -9,7 +9,7 @@ from . import figures, markup
 from . import folder as reader
 from .style import HEAT, plt
 
-MOST = 24  # frames, each some ten kilobytes
+MOST = 24  # frames, each some tens of kilobytes
 MILLISECONDS = 250  # of a frame of the movie; the last one stays eight times as long
 
 SCRIPT = """
@@ -37,7 +37,7 @@ def choose(times):
 
 
 def draw(time, piece, extent, pixel, scale):
-    """One frame as the bytes of a PNG."""
+    """One frame as the bytes of a WebP, a tenth of a PNG."""
     wide, high, to_scale = figures.panel_size(*(end[1] - end[0] for end in extent))
     figure, axis = plt.subplots(figsize=(wide + 1.9, high + 0.9), layout="constrained")
     mean, spans = figures.pixel_mean(*piece[:3], extent, pixel)
@@ -49,17 +49,17 @@ def draw(time, piece, extent, pixel, scale):
     axis.grid(False)
     figure.colorbar(image, ax=axis, label="temperature [K]", extend="max")
     data = io.BytesIO()
-    figure.savefig(data, format="png", dpi=90)
+    figure.savefig(data, format="webp", dpi=90, pil_kwargs={"quality": 85})
     plt.close(figure)
     return data.getvalue()
 
 
 def draw_all(folder):
-    """[(time as text, PNG)] of the snapshots on one scale of temperature; Missing without snapshots."""
+    """[(time as text, picture)] of the snapshots on one scale of temperature; Missing without snapshots."""
     times = reader.snapshot_times(folder)
     chosen = [(f"{1e9 * times[i][0]:.4g} ns", figures.read_slice(times[i][1])) for i in choose(times)]
     pieces = [piece for _, piece in chosen]
-    extent = figures.common_extent(pieces, figures.width_of(folder))
+    extent = figures.common_extent(pieces, figures.sizes_of(folder)[0])
     pixel = max(max(piece[3] for piece in pieces), max(high - low for low, high in extent) / 700.0)
     scale = figures.common_scale(pieces)
     return [(time, draw(time, piece, extent, pixel, scale)) for time, piece in chosen]
@@ -72,13 +72,13 @@ def movie(folder, drawn):
     images[0].save(data, format="WEBP", save_all=True, append_images=images[1:], quality=60, method=4, loop=0,
                    duration=[MILLISECONDS] * (len(images) - 1) + [8 * MILLISECONDS])
     markup.save(folder, "temperature.webp", data.getvalue())
-    return (f'<figure><picture><source media="(prefers-reduced-motion: reduce)" srcset="{markup.inline(drawn[-1][1])}">'
+    return (f'<figure><picture><source media="(prefers-reduced-motion: reduce)" srcset="{markup.inline(drawn[-1][1], "webp")}">'
             f'<img id="movie" src="{markup.inline(data.getvalue(), "webp")}" alt="temperature from {drawn[0][0]} to '
             f'{drawn[-1][0]}"></picture></figure>')
 
 
 def section(drawn):
     """HTML of the frames with their slider."""
-    parts = [f'<figure data-time="{time}"><img src="{markup.inline(data)}" alt="temperature at {time}">'
+    parts = [f'<figure data-time="{time}"><img src="{markup.inline(data, "webp")}" alt="temperature at {time}">'
              f"<figcaption>{html.escape(time)}</figcaption></figure>" for time, data in drawn]
     return f'<div id="frames">{"".join(parts)}</div>{SCRIPT}'

@@ -57,7 +57,7 @@ def grains(folder):
     pieces = [figures.slice_of(state) for state in states]
     if not all(len(piece[0]) for piece in pieces):
         raise reader.Missing("a snapshot holds no particles")
-    extent, scale = figures.common_extent(pieces, figures.width_of(folder)), figures.common_scale(pieces)
+    extent, scale = figures.common_extent(pieces, figures.sizes_of(folder)[0]), figures.common_scale(pieces)
     width, height = (high - low for low, high in extent)
     panel, tall, to_scale = figures.panel_size(width, height)
     count = 3 if "colour" in states[0] else 2

@@ -22,11 +22,13 @@ figcaption, .note { color: #444; font-size: .92rem; }
 .fine { border-left: 4px solid #0072b2; background: #eef5fb; padding: .4rem .8rem; margin: .4rem 0; }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .92rem; }
 th, td { text-align: left; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid #e2e2e2; }
-td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
+td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .top { display: flex; flex-wrap: wrap; gap: 1rem 2rem; align-items: flex-start; }
-.top > div { flex: 1 1 20rem; min-width: 0; } .top > figure { flex: 0 1 auto; } #movie { max-height: 36rem; width: auto; }
+.top > div { flex: 1 1 24rem; min-width: 0; } .top > figure { flex: 0 1 auto; max-width: 26rem; }
+#movie { max-height: 36rem; width: auto; }
 .bar { display: inline-block; height: .8rem; background: #0072b2; vertical-align: middle; }
 .numerical .bar { background: repeating-linear-gradient(45deg, #d55e00 0 4px, #fff 4px 6px); }
+.picture img { width: calc(var(--inches) * 96px); }
 .hidden { display: none; } .slider { display: flex; gap: .8rem; align-items: center; margin: .4rem 0; }
 .slider input { flex: 1; } .slider output { min-width: 5.5rem; font-variant-numeric: tabular-nums; }
 #frames img { max-height: 85vh; width: auto; }

@@ -72,7 +72,7 @@ def space(folder, start):
 
 
 def unresolved(folder, start):
-    """Labels of the thresholds at which the two Euler characteristics differ by a quarter of chi or more on the average
+    """Names the thresholds, or is empty: those at which the two Euler characteristics differ by a quarter of chi or more on the average
     over the run: hot pixels that join over sides alone, or over corners too."""
     for other in ("chi4", "chi6"):
         try:
@@ -87,8 +87,9 @@ def unresolved(folder, start):
     for i, label in shown_thresholds(folder, threshold, start)[0]:
         apart = numpy.abs(arrays[other][:, i] - arrays["chi"][:, i]).mean()
         if apart > 0.25 * numpy.abs(arrays["chi"][:, i]).mean():
-            found.append(f"the quantile {label}" if shares else f"{label} above the start")
-    return found
+            found.append(label)
+    listed = ", ".join(found)
+    return listed and (f"the quantiles {listed}" if shares else f"{listed} above the start")
 
 
 def hot_spots(folder, start):

@@ -4,7 +4,7 @@ import html
 import h5py
 
 from . import (energy_figures, figures, frames, grain_figures, hugoniot_figures, markup, morphology_figures, profile_figures,
-               profiles, summary)
+               profiles, summary, volume_figures)
 from . import folder as reader
 from .markup import missing, picture, table
 
@@ -88,10 +88,21 @@ def temperature_sections(folder, drawn):
             markup.section("Temperature, time by time", lambda: frames.section(drawn()))]
 
 
+def volume_sections(folder, scene, heights):
+    """Sections of a run in three dimensions; none for others."""
+    if len(scene.get("domain", {}).get("size", ())) != 3:
+        return []
+    return [picture(folder, "slices", "Slices across the shock axis", "Temperature of the last snapshot at heights above the low "
+                    "side; tools/report.py --heights chooses others.", lambda: volume_figures.slices(folder, heights)),
+            picture(folder, "hot_surface", "Surface of the hot region", "Where the measured map of the temperature reaches a level, "
+                    "lit from the upper left, inside the outline of the domain. Voids count as cold.",
+                    lambda: volume_figures.hot_surface(folder))]
+
+
 def morphology_sections(folder, start):
     """Sections with what was measured of the hot regions."""
     return [picture(folder, "morphology_time", "Figure 2: morphology against time", "Functionals of the region hotter than the "
-                    "threshold, per material pixel. Where domains are counted, chi is the paper's: hot less cold domains; the "
+                    "threshold, per material pixel, in 3-D per voxel. Where domains are counted, chi is the paper's: hot less cold domains; the "
                     "chi of the pixels counts every void as a hole in the hot region.",
                     lambda: morphology_figures.against_time(folder, start)),
             picture(folder, "morphology_space", "Figure 3: the A-L-chi space", "The curves of Figure 2 without "
@@ -116,8 +127,9 @@ def profile_sections(folder):
                     lambda: hugoniot_figures.hugoniots(folder))]
 
 
-def write(folder):
-    """Writes report.html and pictures/ into `folder`; returns the path of the page."""
+def write(folder, heights=()):
+    """Writes report.html and pictures/ into `folder`, with slices at heights (m) of a run in 3-D; returns the path of the
+    page."""
     notes = []
     try:
         scene = reader.read_scene(folder)
@@ -135,6 +147,7 @@ def write(folder):
         *notes,
         summary.head(folder, scene, start, movie),
         *temperature_sections(folder, drawn),
+        *volume_sections(folder, scene, heights),
         *morphology_sections(folder, start),
         *profile_sections(folder),
         *grain_sections(folder),

@@ -81,8 +81,8 @@ def speed(folder):
     """Sentence on how fast the run was."""
     timings = reader.read_timings(folder)
     known = {key: timings.get(key, numpy.nan) for key in ("rate_per_core", "ranks", "wall_seconds")}
-    return (f"{1e-6 * known['rate_per_core']:.2f} million particle steps per second and core, {known['ranks']} ranks, "
-            f"{known['wall_seconds']:.4g} s.")
+    return (f"{1e-6 * known['rate_per_core']:.2f} million particle steps per second and core, {known['ranks']} "
+            f"rank{'' if known['ranks'] == 1 else 's'}, {known['wall_seconds']:.4g} s.")
 
 
 def warnings_of_history(folder, scene):
@@ -115,9 +115,9 @@ def warnings(folder, scene, start):
     try:
         poor = morphology_figures.unresolved(folder, start)
     except reader.Missing:
-        poor = []
+        poor = ""
     if poor:
-        found.append(f"Resolution of the morphology: at {', '.join(poor)}, the Euler characteristics of hot pixels that join over "
+        found.append(f"Resolution of the morphology: at {poor}, the Euler characteristics of hot pixels that join over "
                      "sides alone and over corners too differ by a quarter or more while the run lasts.")
     return found
 
