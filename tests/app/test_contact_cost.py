@@ -55,7 +55,7 @@ class ContactCost(ProgramTest):
         subprocess.run(
             ["valgrind", "--tool=callgrind", f"--callgrind-out-file={counts}", "--toggle-collect=*poreshock::advance<*",
              COUNTED, "run", ROOT / "input/porous_aluminium.toml", "--output", "out", "--set",
-             "domain.size=[0.15e-3, 0.35e-3]", "sample.height=0.3e-3", f"time.max_steps={STEPS}"],
+             "domain.size=[0.16e-3, 0.36e-3]", "sample.height=0.3e-3", f"time.max_steps={STEPS}"],
             cwd=self.folder, check=True, capture_output=True, timeout=500 * PATIENCE)
         listing = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", counts],
                                  capture_output=True, text=True, check=True).stdout

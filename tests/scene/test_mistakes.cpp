@@ -38,7 +38,7 @@ void expect_message(const Mistake& mistake) {
 TEST(Mistakes, EachSaysWhatToWrite) {
   const Mistake mistakes[] = {
       {"cell = ", "cell = 5",  // micrometres
-       "NN:8: domain.cell: found 5 m, allowed up to a quarter of domain.size, here 0.000125 m; "
+       "NN:8: domain.cell: found 5 m, allowed up to a quarter of domain.size, here 0.0002 m; "
        "10 um are 10e-6"},
       {"end = ", "end = 500",  // nanoseconds
        "NN:7: time.end: found 500 s, allowed up to 1e9 times output.beat = 5 s; 100 ns are 100e-9"},
@@ -50,9 +50,9 @@ TEST(Mistakes, EachSaysWhatToWrite) {
        "NN:1: sample.porosty: unknown key, allowed kind, material, "},
       {"velocity = 1100", "velocity = \"1100 m/s\"",
        "NN:12: loading.velocity: found \"1100 m/s\", allowed a number >= 0 (m/s)"},
-      {"size = ", "size = [0.5e-3, 2.803e-3]",
-       "NN:8: domain.size: found 0.002803 m along y, allowed whole multiples of domain.cell = "
-       "5e-06 m"},
+      {"size = ", "size = [0.8e-3, 1.803e-3]",
+       "NN:8: domain.size: found 0.001803 m along y, allowed whole multiples of domain.cell = "
+       "4e-06 m"},
       {"kind = ", "kind = random_voids",
        "NN:8: not valid TOML: Error while parsing value: could not determine value type; a text "
        "stands in quotes"},
