@@ -6,7 +6,7 @@ import subprocess
 
 import numpy
 
-from program import ALUMINIUM, BALLS, POROUS, PROGRAM, ProgramTest, datasets, flip_byte, particles
+from program import ALUMINIUM, BALLS, POROUS, PROGRAM, ROOT, ProgramTest, datasets, flip_byte, particles
 
 
 class Commands(ProgramTest):
@@ -90,6 +90,11 @@ class Commands(ProgramTest):
         self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
         self.assertRegex(text, r"\ndisk                    \d+ MB for 3 snapshots, \d+ MB a checkpoint\n")
         self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 4\.0 million particle-steps")
+
+    def test_the_first_scene_warns_of_nothing(self):
+        text = self.succeed("check", ROOT / "input/porous_aluminium.toml").output
+        self.assertIn("\ncells per void diameter 20.0\n", text)
+        self.assertNotIn("warning", text)
 
     def warning(self, *changes):
         """The warnings of check but the two that this small scene always has."""
