@@ -204,6 +204,17 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
 
 }  // namespace
 
+bool is_mirrored(const Boundary& boundary, const GridShape& shape, int row, int lateral) {
+  const auto on_axis = [](int index, int count, SideKind low, SideKind high) {
+    return axis_place(index, count, low, high).place != Place::inside;
+  };
+  const int x = lateral % shape.nodes[0], y = lateral / shape.nodes[0];
+  return on_axis(row, shape.rows, boundary.low.kind, boundary.high.kind) ||
+         on_axis(x, shape.nodes[0], boundary.lateral[0], boundary.lateral[0]) ||
+         (shape.dimension == 3 &&
+          on_axis(y, shape.nodes[1], boundary.lateral[1], boundary.lateral[1]));
+}
+
 template <int Dim>
 void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity, SlabGrid& grid,
                       NodeLedger& ledger) {

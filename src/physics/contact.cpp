@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tied_space.hpp"
+
 namespace poreshock {
 
 namespace {
@@ -12,16 +14,21 @@ constexpr int most_sweeps = 64;
 constexpr double converged = 1e-6;  // change of the impulses in a sweep, over their sum
 constexpr int most_pairs = most_grains_at_node * (most_grains_at_node - 1) / 2;
 
-/// Two grains of a node and what they give each other.
+/// Two grains of a node.
 template <int Dim>
 struct Pair {
-  int a = 0, b = 0;
-  Vector<Dim> normal = Vector<Dim>::Zero();  ///< from a to b
-  double gap = 0.0;                          ///< m, that may still close
-  bool rubs = true;                          ///< false where the normal is only a guess
-  double push = 0.0;                         ///< kg m/s along the normal, on b
-  Vector<Dim> rub = Vector<Dim>::Zero();     ///< kg m/s across it, on b
+  int a, b;
+  Vector<Dim> normal;  ///< from a to b
+  bool rubs;           ///< false where the normal is only a guess
+  double push;         ///< kg m/s along the normal, on b
+  Vector<Dim> rub;     ///< kg m/s across it, on b
 };
+
+template <int Dim>
+double reduced_mass(const Pair<Dim>& pair, std::span<const NodeGrain<Dim>> grains) {
+  const double ma = grains[pair.a].mass, mb = grains[pair.b].mass;
+  return ma * (mb / (ma + mb));
+}
 
 /// Common normal of two grains: of their volume gradients, else from place to place. `crowded`:
 /// there are more grains at the node. False when there is none.
@@ -55,134 +62,159 @@ bool set_normal(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double cell, b
   return true;
 }
 
+/// Adds to velocities the least impulses that keep the pairs from closing: Gauss-Seidel over all
+/// pairs, back and forth, until they stand. A single pair is solved by its first step.
 template <int Dim>
-void add_impulse(const Vector<Dim>& impulse, const Pair<Dim>& pair,
-                 std::span<NodeGrain<Dim>> grains) {
-  grains[pair.a].end -= impulse / grains[pair.a].mass;
-  grains[pair.b].end += impulse / grains[pair.b].mass;
-}
-
-/// One Gauss-Seidel step: the impulse of this pair given those of all others. Returns by how much
-/// it changed, kg m/s.
-template <int Dim>
-double relax_pair(double friction, double closing_time, Pair<Dim>& pair,
-                  std::span<NodeGrain<Dim>> grains) {
-  const double ma = grains[pair.a].mass, mb = grains[pair.b].mass;
-  const double reduced = ma * (mb / (ma + mb));
-  Vector<Dim> relative = grains[pair.b].end - grains[pair.a].end;
-  const double missing = -(dot<Dim>(relative, pair.normal) + pair.gap / closing_time);
-  const double push = std::max(pair.push + reduced * missing, 0.0);
-  add_impulse<Dim>(pair.normal * (push - pair.push), pair, grains);
-  const double change = std::abs(push - pair.push);
-  pair.push = push;
-  if (!(friction > 0.0) || !pair.rubs) return change;
-  relative = grains[pair.b].end - grains[pair.a].end;
-  const Vector<Dim> slip = relative - pair.normal * dot<Dim>(relative, pair.normal);
-  Vector<Dim> rub = pair.rub - slip * reduced;
-  const double size = std::sqrt(dot<Dim>(rub, rub));
-  const double most = friction * push;
-  if (size > most) rub *= most / size;
-  const Vector<Dim> more = rub - pair.rub;
-  add_impulse<Dim>(more, pair, grains);
-  pair.rub = rub;
-  return change + std::sqrt(dot<Dim>(more, more));
-}
-
-/// Gauss-Seidel over all pairs, back and forth, until the impulses stand. A single pair is solved
-/// by its first step.
-template <int Dim>
-void relax_pairs(const ContactSettings& settings, std::span<Pair<Dim>> pairs,
-                 std::span<NodeGrain<Dim>> grains) {
+void find_pushes(std::span<const NodeGrain<Dim>> grains, NodeVelocities<Dim>& velocity,
+                 std::span<Pair<Dim>> pairs) {
   const std::size_t count = pairs.size();
+  for (Pair<Dim>& pair : pairs) pair.push = 0.0;
   for (int sweep = 0; sweep < (count == 1 ? 1 : most_sweeps); ++sweep) {
     double change = 0.0, sum = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
       Pair<Dim>& pair = pairs[sweep % 2 == 0 ? k : count - 1 - k];
-      change += relax_pair<Dim>(settings.friction, settings.closing_time, pair, grains);
-      sum += pair.push;
+      const double opening = dot<Dim>(velocity[pair.b] - velocity[pair.a], pair.normal);
+      const double push = std::max(pair.push - reduced_mass<Dim>(pair, grains) * opening, 0.0);
+      const Vector<Dim> more = pair.normal * (push - pair.push);
+      velocity[pair.a] -= more / grains[pair.a].mass;
+      velocity[pair.b] += more / grains[pair.b].mass;
+      change += std::abs(push - pair.push);
+      sum += push;
+      pair.push = push;
     }
     if (!(change > converged * sum)) return;
   }
 }
 
-/// Kinetic energy that impulses from `before` to the velocities now took: J . (before + now) / 2.
+/// The pairs that push each other with these velocities, moved to the front of all.
 template <int Dim>
-double energy_taken(std::span<const Vector<Dim>> before, std::span<const NodeGrain<Dim>> grains) {
-  double taken = 0.0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    const Vector<Dim> change = before[g] - grains[g].end;
-    const Vector<Dim> middle = (before[g] + grains[g].end) * 0.5;
-    taken += grains[g].mass * dot<Dim>(change, middle);
-  }
-  return taken;
+std::span<Pair<Dim>> pushing(std::span<const NodeGrain<Dim>> grains, std::span<Pair<Dim>> pairs,
+                             NodeVelocities<Dim>& velocity) {
+  find_pushes<Dim>(grains, velocity, pairs);
+  const auto parts = [](const Pair<Dim>& pair) { return !(pair.push > 0.0); };
+  const auto last = std::remove_if(pairs.begin(), pairs.end(), parts);
+  return pairs.first(static_cast<std::size_t>(last - pairs.begin()));
 }
 
-/// Friction bounds that shrank during the sweeps may leave impulses that add energy. Along the ray
-/// of all impulses together energy is a parabola: its lowest point keeps every bound.
+/// Start and end velocities of the grains of a node.
 template <int Dim>
-void keep_energy_down(std::span<const Vector<Dim>> before, std::span<Pair<Dim>> pairs,
-                      std::span<NodeGrain<Dim>> grains) {
-  double slope = 0.0, curvature = 0.0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    const Vector<Dim> change = grains[g].end - before[g];
-    slope += grains[g].mass * dot<Dim>(before[g], change);
-    curvature += grains[g].mass * dot<Dim>(change, change);
-  }
-  if (slope + 0.5 * curvature <= 0.0 || !(curvature > 0.0)) return;
-  const double share = std::clamp(-slope / curvature, 0.0, 1.0);
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    grains[g].end = before[g] + (grains[g].end - before[g]) * share;
-  }
+struct Motion {
+  NodeVelocities<Dim> start, end;
+};
+
+template <int Dim>
+void project(const ContactSettings& settings, const TiedSpace<Dim>& space, Motion<Dim>& motion) {
+  if (!settings.mirrored) space.project(motion.start);
+  space.project(motion.end);
+}
+
+/// What of the relative velocity of a pair lies across its normal.
+template <int Dim>
+Vector<Dim> slip_of(const Pair<Dim>& pair, const NodeVelocities<Dim>& velocity) {
+  const Vector<Dim> relative = velocity[pair.b] - velocity[pair.a];
+  return relative - pair.normal * dot<Dim>(relative, pair.normal);
+}
+
+/// Ties pairs that friction keeps from slipping; the others get its impulse, on b.
+template <int Dim>
+void find_rubs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
+               std::span<Pair<Dim>> pairs, Motion<Dim>& motion, TiedSpace<Dim>& space) {
   for (Pair<Dim>& pair : pairs) {
-    pair.push *= share;
-    pair.rub *= share;
+    pair.rub.setZero();
+    if (!pair.rubs) continue;
+    const Vector<Dim> slip = slip_of(pair, motion.end);
+    const double speed = std::sqrt(dot<Dim>(slip, slip)), most = settings.friction * pair.push;
+    if (reduced_mass<Dim>(pair, grains) * speed > most) {
+      pair.rub = slip * (-most / speed);
+      continue;
+    }
+    for (int axis = 0; axis < Dim; ++axis) space.tie(pair.a, pair.b, Vector<Dim>::Unit(axis));
   }
+  project<Dim>(settings, space, motion);
+}
+
+/// Adds the impulses of friction to the end velocities, those of a crowded node so that no tie
+/// breaks, and so far that their heat, a parabola of their common size, is not negative.
+template <int Dim>
+void rub_pairs(std::span<NodeGrain<Dim>> grains, std::span<Pair<Dim>> pairs,
+               const TiedSpace<Dim>& space, Motion<Dim>& motion, ContactReport& report) {
+  NodeVelocities<Dim> change, middle;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    change[g].setZero();
+    middle[g] = (motion.start[g] + motion.end[g]) * 0.5;
+  }
+  for (const Pair<Dim>& pair : pairs) {
+    change[pair.a] -= pair.rub / grains[pair.a].mass;
+    change[pair.b] += pair.rub / grains[pair.b].mass;
+  }
+  space.project(change);
+  const double slope = space.product(change, middle), square = space.product(change, change);
+  if (!(slope < 0.0)) return;
+  const double share = std::min(1.0, -2.0 * slope / square);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    motion.end[g] += change[g] * share;
+    middle[g] += change[g] * (0.5 * share);
+  }
+  report.friction_heat = -share * (slope + 0.5 * share * square);
+  for (const Pair<Dim>& pair : pairs) {
+    const double heat = -share * dot<Dim>(pair.rub, middle[pair.b] - middle[pair.a]);
+    grains[pair.a].heat += 0.5 * heat;
+    grains[pair.b].heat += 0.5 * heat;
+  }
+}
+
+/// Heat of impulses that act on start velocities which do not keep the ties, with that of friction
+/// alike per mass in all grains.
+template <int Dim>
+void book_impact(std::span<NodeGrain<Dim>> grains, const Motion<Dim>& motion,
+                 ContactReport& report) {
+  double heat = 0.0, mass = 0.0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const Vector<Dim> change = motion.end[g] - grains[g].end;
+    const Vector<Dim> middle = (motion.start[g] + motion.end[g]) * 0.5;
+    heat -= grains[g].mass * dot<Dim>(change, middle);
+    mass += grains[g].mass;
+  }
+  for (NodeGrain<Dim>& grain : grains) grain.heat = grain.mass / mass * heat;
+  report.impact_heat = heat - report.friction_heat;
 }
 
 template <int Dim>
-void share_heat(std::span<const Pair<Dim>> pairs, std::span<NodeGrain<Dim>> grains,
-                ContactReport& report) {
-  for (const Pair<Dim>& pair : pairs) {
-    NodeGrain<Dim>& a = grains[pair.a];
-    NodeGrain<Dim>& b = grains[pair.b];
-    const Vector<Dim> middle = ((b.start - a.start) + (b.end - a.end)) * 0.5;
-    const double impact = -pair.push * dot<Dim>(pair.normal, middle);
-    const double rubbing = -dot<Dim>(pair.rub, middle);
-    a.heat += 0.5 * (impact + rubbing);
-    b.heat += 0.5 * (impact + rubbing);
-    report.impact_heat += impact;
-    report.friction_heat += rubbing;
-    if (pair.push > 0.0) ++report.pairs;
+void write_motion(double kept, const Motion<Dim>& motion, std::span<NodeGrain<Dim>> grains) {
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    NodeGrain<Dim>& grain = grains[g];
+    const Vector<Dim> taken = grain.start - motion.start[g];
+    grain.later_work = (motion.end[g] - grain.end + taken) * 0.5 + taken * kept;
+    grain.start = motion.start[g];
+    grain.end = motion.end[g];
   }
 }
 
-/// All pairs of a node that have a normal, with their gaps. `normal`: of two grains, where known.
+/// All pairs of a node that have a normal and touch. `normal`: of two grains, where known.
 template <int Dim>
 int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
                const FaceTable& faces, const Vector<Dim>* normal,
                std::array<Pair<Dim>, most_pairs>& pairs, ContactReport& report) {
-  double filled = 0.0;
-  for (const NodeGrain<Dim>& g : grains) filled += g.volume;
+  const NodeFill<Dim> node = fill_of<Dim>(grains);
   // Over the space of a node inside the domain: beyond a wall only a sliver of it is left.
   double space = 1.0;
   for (int k = 0; k < Dim; ++k) space *= settings.cell;
-  const double excess = (filled - settings.capacity) / space;
+  const double excess = (node.volume - settings.capacity) / space;
   if (excess > 0.0) report.penetration = excess * settings.cell / faces.density(0.5);
   report.least_gap = std::numeric_limits<double>::infinity();
   int count = 0;
   for (int a = 0; a < static_cast<int>(grains.size()); ++a) {
     for (int b = a + 1; b < static_cast<int>(grains.size()); ++b) {
       Pair<Dim>& pair = pairs[static_cast<std::size_t>(count)];
-      pair = {.a = a, .b = b};
+      pair.a = a, pair.b = b, pair.rubs = true;
       if (normal != nullptr && grains.size() == 2) {
         pair.normal = *normal;
       } else if (!set_normal<Dim>(grains[a], grains[b], settings.cell, grains.size() > 2, pair)) {
         continue;
       }
-      const double gap = pair_gap<Dim>(grains[a], grains[b], filled, settings, faces);
+      const double gap = pair_gap<Dim>(grains[a], grains[b], pair.normal, node, settings, faces);
       report.least_gap = std::min(report.least_gap, gap);
-      if (settings.gap_test) pair.gap = gap;
-      ++count;
+      if (!settings.gap_test || !(gap > 0.0)) ++count;
     }
   }
   return count;
@@ -196,14 +228,33 @@ ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSet
   ContactReport report;
   std::array<Pair<Dim>, most_pairs> storage;
   const int count = find_pairs<Dim>(grains, settings, faces, normal, storage, report);
-  const std::span<Pair<Dim>> pairs(storage.data(), static_cast<std::size_t>(count));
-  std::array<Vector<Dim>, most_grains_at_node> before;
-  for (std::size_t g = 0; g < grains.size(); ++g) before[g] = grains[g].end;
-  const std::span<const Vector<Dim>> start(before.data(), grains.size());
-  relax_pairs<Dim>(settings, pairs, grains);
-  if (count > 1) keep_energy_down<Dim>(start, pairs, grains);
-  report.loss = energy_taken<Dim>(start, grains);
-  share_heat<Dim>(pairs, grains, report);
+  Motion<Dim> motion;
+  for (std::size_t g = 0; g < grains.size(); ++g) motion.end[g] = grains[g].end;
+  const std::span<Pair<Dim>> pairs =
+      pushing<Dim>(grains, {storage.data(), static_cast<std::size_t>(count)}, motion.end);
+  report.pairs = static_cast<int>(pairs.size());
+  if (pairs.empty()) return report;
+  const bool rubs = settings.friction > 0.0;
+  if (rubs) {
+    // What the particles keep is no impulse that they were given.
+    for (std::size_t g = 0; g < grains.size(); ++g) {
+      motion.end[g] = grains[g].end - grains[g].start * settings.kept;
+    }
+    find_pushes<Dim>(grains, motion.end, pairs);
+  }
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    motion.start[g] = grains[g].start;
+    motion.end[g] = grains[g].end;
+  }
+  TiedSpace<Dim> space(grains);
+  for (const Pair<Dim>& pair : pairs) space.tie(pair.a, pair.b, pair.normal);
+  project<Dim>(settings, space, motion);
+  if (rubs) {
+    find_rubs<Dim>(grains, settings, pairs, motion, space);
+    rub_pairs<Dim>(grains, pairs, space, motion, report);
+  }
+  if (settings.mirrored) book_impact<Dim>(grains, motion, report);
+  write_motion<Dim>(settings.kept, motion, grains);
   return report;
 }
 

@@ -57,8 +57,9 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
   using Motion = MotionLane<Dim>;
   using Collision = CollisionLane<Dim>;
   for (int a = 0; a < Dim; ++a) {
-    surface[Collision::change + a] = grain.end[a] - motion[Motion::end_velocity + a];
+    surface[Collision::later_work + a] = grain.later_work[a];
     surface[Collision::end + a] = grain.end[a];
+    motion[Motion::start_velocity + a] = grain.start[a];
     motion[Motion::end_velocity + a] = grain.end[a];
   }
   motion[Motion::heat] += grain.heat / grain.mass;
@@ -154,7 +155,7 @@ void settle_contact_heat(const std::vector<ContactField>& fields, const std::vec
         double heat = 0.0;
         for (int a = 0; a < Dim; ++a) {
           const double moved = motion[Motion::end_velocity + a] - collision[Collision::end + a];
-          heat -= collision[Collision::change + a] * (0.5 * moved);
+          heat -= collision[Collision::later_work + a] * moved;
         }
         if (heat == 0.0) continue;
         motion[Motion::heat] += heat;

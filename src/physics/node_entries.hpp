@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/grain_contact.hpp"
 #include "poreshock/physics/parting_plane.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
@@ -74,14 +75,17 @@ int read_entries(const std::vector<ContactField>& fields, int row, int node,
 /// Calls visit(row, node, its number, settings of the node) for all shared nodes.
 template <class Visit>
 void for_each_shared(const SlabGrid& grid, const std::vector<bool>& shared, const Scene& scene,
-                     ContactSettings settings, Visit&& visit) {
+                     const ContactSettings& settings, Visit&& visit) {
   const GridShape& shape = grid.shape();
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
     for (int i = 0; i < shape.row_size; ++i) {
       if (!shared[at + i]) continue;
-      settings.capacity = node_capacity(shape, scene.transfer, row, i);
-      visit(row, i, at + i, settings);
+      ContactSettings here = settings;
+      here.capacity = node_capacity(shape, scene.transfer, row, i);
+      here.mirrored = is_mirrored(scene.boundary, shape, row, i);
+      if (here.mirrored) here.kept = 0.0;
+      visit(row, i, at + i, here);
     }
   }
 }

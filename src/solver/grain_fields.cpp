@@ -7,6 +7,7 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/solver/simulation.hpp"
+#include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/node_points.hpp"
 #include "poreshock/transfer/surfaces.hpp"
@@ -16,12 +17,6 @@
 namespace poreshock {
 
 namespace {
-
-/// Cells that a sound wave crosses while a gap closes. Less, and grains that meet fast overlap more
-/// (2.6 % of the volume of a bed at 1100 m/s at 0, 1.6 % at 2, 0.9 % at 4, when strained grains
-/// touch no earlier than others); more, and two elastic discs lose more energy (3.1, 3.5 and 6.1 %
-/// at 40 cells per diameter).
-constexpr double closing_cells = 2.0;
 
 template <int Dim>
 std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
@@ -74,15 +69,6 @@ std::vector<bool> cells_at(const std::vector<bool>& shared, const SlabGrid& grid
   return cells;
 }
 
-/// Time in which gaps may close: a grain that is stopped at its face goes on behind it until a wave
-/// has crossed the nodes that see the face, and would sink into the other one meanwhile.
-template <int Dim>
-double closing_time(double dt, const Simulation<Dim>& sim) {
-  double speed = 0.0;
-  for (const Material& m : sim.materials) speed = std::max(speed, longitudinal_sound_speed(m));
-  return std::max(dt, closing_cells * sim.scene.domain.cell / speed);
-}
-
 /// The fields that may collide: all, or the two sides of self-contact.
 std::vector<ContactField> contact_fields(const GrainFields& all) {
   std::vector<ContactField> fields;
@@ -130,7 +116,7 @@ ContactSettings contact_settings(double dt, const Simulation<Dim>& sim) {
   return {.friction = sim.scene.contact.friction,
           .gap_test = sim.scene.contact.gap == GapTest::volume,
           .cell = sim.scene.domain.cell,
-          .closing_time = closing_time(dt, sim),
+          .kept = 1.0 - lost_share(sim.scene.transfer, sim.sound_speed, sim.scene.domain.cell, dt),
           .capacity = 0.0};
 }
 

@@ -22,7 +22,8 @@ TEST_P(GrainsCloseTheEnergy, AndKeepMomentum) {
     EXPECT_NEAR(after.total_momentum[a], before.total_momentum[a],
                 1e-13 * std::abs(before.momentum[1]));
   }
-  EXPECT_GT(after.contact_heat, 1e-3 * before.kinetic);
+  EXPECT_GT(after.contact_heat, 0.0);  // beside the wall alone
+  EXPECT_LT(after.contact_heat, 0.1 * before.kinetic);
   const bool rubs = sim.scene.contact.friction > 0.0;
   EXPECT_EQ(after.friction_heat > 1e-3 * before.kinetic, rubs) << after.friction_heat;
 }

@@ -15,4 +15,8 @@ template <int Dim>
 void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity, SlabGrid& grid,
                       NodeLedger& ledger);
 
+/// True at nodes whose velocities apply_boundaries may change. `lateral` is the index of the node
+/// in its row. Pure function.
+bool is_mirrored(const Boundary& boundary, const GridShape& shape, int row, int lateral);
+
 }  // namespace poreshock

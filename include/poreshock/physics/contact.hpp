@@ -14,17 +14,23 @@ struct ContactReport {
   int pairs = 0;               ///< pairs that pushed each other
   double least_gap = 0.0;      ///< m, of all pairs; infinite without a pair
   double penetration = 0.0;    ///< m, by which grains overfill the node
-  double impact_heat = 0.0;    ///< J, of normal impulses
-  double friction_heat = 0.0;  ///< J, of tangential impulses
-  double loss = 0.0;           ///< J >= 0, kinetic energy the impulses took from the end velocities
+  double friction_heat = 0.0;  ///< J >= 0
+  double impact_heat = 0.0;    ///< J, of normal impulses beside a wall
 };
 
-/// Lets the grains of a node collide: a pair acts when it would close its gap within closing_time,
-/// and then ends at a relative velocity that closes the gap in that time; friction is Coulomb's.
-/// Two grains are solved exactly; more by projected Gauss-Seidel over ordered pairs. Every impulse
-/// acts on two grains, so momentum stays to rounding; the kinetic energy of the end velocities
-/// never grows. The heat of an impulse J is -J . (start + end)/2 of the relative velocity, half to
-/// each side: with the internal forces' work at mid-step the energy of the step then closes.
+/// Lets the grains of a node collide: a pair that touches and closes is tied. Start
+/// and end velocities are projected on those of one normal velocity in every tied pair, orthogonal
+/// in sum m u . v. So the impulses do no work with the mean of both, and what the start velocities
+/// lose stays in the residuals of the particles, where the transfer keeps or heats it. Which pairs
+/// of a crowded node push each other is found by projected Gauss-Seidel; the projection is exact.
+///
+/// Friction is Coulomb's with the impulse that the particles of a grain get: a pair that it holds
+/// is tied in all directions, another one slips, with the heat -J . (start + end)/2 of the relative
+/// velocity, half to each side, never negative at a node.
+///
+/// Beside a wall, which has yet to change the end velocities, the start velocities stay, and so all
+/// impulses take -J . (start + end)/2 as heat, alike per mass in all grains.
+///
 /// `normal`: from the first to the second of two grains; null: from their gradients. Pure function.
 template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,

@@ -35,7 +35,7 @@ double node_capacity(const GridShape& shape, const Transfer& transfer, int row, 
 /// Not collective.
 std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass_lane);
 
-/// Lets the grains of all shared nodes collide: end velocities and the heat lane change, and
+/// Lets the grains of all shared nodes collide: velocities and the heat lane change, and
 /// SurfaceLane gives way to CollisionLane there. Before: motion and surfaces complete, periodic
 /// images not yet filled. The same happens on every rank that holds a node. Fields are taken in the
 /// order of their masses and velocities, so that the numbers of the fields do not matter.

@@ -36,8 +36,10 @@ struct SurfaceLane {
 /// What contact did to the grain of one velocity field at a shared node.
 template <int Dim>
 struct CollisionLane {
-  static constexpr int change = 0;  ///< m/s, of the end velocity; Dim numbers
-  static constexpr int end = Dim;   ///< m/s, end velocity after it; Dim numbers
+  /// m/s, whose product with a later change of the end velocity is missing from the heat; Dim
+  /// numbers
+  static constexpr int later_work = 0;
+  static constexpr int end = Dim;  ///< m/s, end velocity after it; Dim numbers
 };
 
 }  // namespace poreshock
