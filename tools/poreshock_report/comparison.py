@@ -6,6 +6,9 @@ import numpy
 from . import comparison_figures, markup, summary
 from . import folder as reader
 
+LAST = {"particles": "particles", "step": "steps", "time": "time [s]"}  # columns of the history
+SPEED = {"ranks": "ranks", "wall_seconds": "wall time [s]", "rate_per_core": "particle steps per second and core"}
+
 
 def flat(table, path=""):
     """{dotted key: value} of nested tables and lists of tables."""
@@ -47,14 +50,13 @@ def numbers(folder):
         found |= {f"heat: {label}": (share, f"{100.0 * share:.1f} %") for label, share in summary.heat_shares(columns).items()}
         share = reader.numerical_share(columns)[-1]
         found["numerical dissipation"] = share, f"{100.0 * share:.1f} %"
-        found |= {name: (columns[name][-1], markup.number(columns[name][-1])) for name in ("particles", "step", "time")}
+        found |= {label: (columns[name][-1], markup.number(columns[name][-1])) for name, label in LAST.items()}
         found["largest energy drift"] = numpy.nan, f"{reader.drift(columns).max():.1e}"
     except (reader.Missing, KeyError):
         pass
     try:
         timings = reader.read_timings(folder)
-        found |= {name: (timings[name], markup.number(timings[name])) for name in ("ranks", "wall_seconds", "rate_per_core")
-                  if name in timings}
+        found |= {label: (timings[name], markup.number(timings[name])) for name, label in SPEED.items() if name in timings}
     except reader.Missing:
         pass
     return found

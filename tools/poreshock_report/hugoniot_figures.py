@@ -6,7 +6,7 @@ import plate_exact
 from . import hugoniot, profiles
 from .style import COLOURS, plt
 
-POINTS = 60  # of a curve
+POINTS = 40  # of a curve
 UNITS = (1.0, 1e-9)  # of Us and P in the picture, 1/(m/s) and 1/Pa
 # P-alpha lies on the snow-plow where all voids collapse, so it goes over it as a thin line.
 LINES = {"solid": {"color": COLOURS[2], "linestyle": "-.", "linewidth": 1.4},

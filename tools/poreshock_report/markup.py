@@ -38,7 +38,7 @@ td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; wh
 @media print { .slider, #frames figure:not(:last-of-type) { display: none; } body { max-width: none; font-size: 11pt; padding: 0; }
                section { break-inside: avoid; } img { max-height: 22cm; } }
 """
-NUMBER = re.compile(r"-|[-+]?\d[\d.]*(e[-+]?\d+)?( %)?")
+NUMBER = re.compile(r"-|[-+]?\d[\d. ]*(e[-+]?\d+)?( %|\+- [\d.]+)?")
 
 
 def number(value):

@@ -18,7 +18,15 @@ KINDS = {"random_voids": "a block with voids", "packed_grains": "packed grains",
 
 
 def what(folder, scene):
-    """Sentences that say what was run."""
+    """Sentence that says what was run; empty where the scene does not."""
+    try:
+        return describe(folder, scene)
+    except (KeyError, TypeError, ValueError):
+        return ""
+
+
+def describe(folder, scene):
+    """Sentence that says what was run; KeyError where the scene lacks something."""
     domain, sample = scene.get("domain", {}), scene.get("sample", {})
     names = " and ".join(dict.fromkeys(str(material.get("name")) for material in scene.get("material", [])))
     if not domain or not names:
