@@ -232,7 +232,7 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   sources.density = density[0];
   PixelScales scales = {0.0, 2.0 * scene.domain.cell};
   for (const MaterialParameters& m : scene.materials) {
-    scales.density = std::max(scales.density, initial_density(make_material(m)));
+    scales.density = std::max(scales.density, m.density);
   }
   result.map = deposit<Dim>(sources, {values}, scales, grid);
   result.map.single_precision = single;

@@ -37,7 +37,7 @@ FlowStress steinberg_guinan(const SteinbergGuinanParameters& p) {
 }  // namespace
 
 Material make_material(const MaterialParameters& p) {
-  J2MieGruneisen m;
+  Material m;
   m.eos = make_mie_gruneisen(p.density, p.c0, p.lambda, p.gamma, p.cv, p.T0);
   m.strength.shear = p.young / (2.0 * (1.0 + p.poisson));
   if (p.strength == StrengthModel::linear) {
@@ -56,45 +56,24 @@ Material make_material(const MaterialParameters& p) {
   return m;
 }
 
-double temperature(const Material& material, Thermal thermal, const ThermalState& state) {
+double temperature(const Material& m, Thermal thermal, const ThermalState& state) {
   const bool paper = thermal == Thermal::paper;
-  return std::visit(
-      [&](const auto& m) {
-        const double heat = paper
-                                ? state.plastic_work
-                                : state.internal_energy -
-                                      m.deviatoric_energy(state.deviator_square, state.density) -
-                                      m.back_stress_energy(state.back_stress_square, state.density);
-        double eta = 1.0 - m.eos.density / state.density;
-        if (state.failed) {
-          eta = std::max(eta, unloaded_eta(m.eos, paper ? 1.0 : 1.0 + 0.5 * m.eos.gamma, heat));
-        }
-        const double reference = reference_temperature(m.temperature, eta);
-        if (paper) return reference + (heat + state.conducted_heat) / m.eos.cv;
-        return reference + (heat - reference_point(m.eos, eta).energy) / m.eos.cv;
-      },
-      material);
+  const double heat = paper ? state.plastic_work
+                            : state.internal_energy -
+                                  m.deviatoric_energy(state.deviator_square, state.density) -
+                                  m.back_stress_energy(state.back_stress_square, state.density);
+  double eta = 1.0 - m.eos.density / state.density;
+  if (state.failed) {
+    eta = std::max(eta, unloaded_eta(m.eos, paper ? 1.0 : 1.0 + 0.5 * m.eos.gamma, heat));
+  }
+  const double reference = reference_temperature(m.temperature, eta);
+  if (paper) return reference + (heat + state.conducted_heat) / m.eos.cv;
+  return reference + (heat - reference_point(m.eos, eta).energy) / m.eos.cv;
 }
 
-double longitudinal_sound_speed(const Material& material) {
-  return std::visit(
-      [](const auto& m) {
-        const double bulk = conserving_state(m.eos, m.eos.density, 0.0).sound_speed2;
-        return std::sqrt(bulk + 4.0 * m.strength.shear / (3.0 * m.eos.density));
-      },
-      material);
-}
-
-double initial_density(const Material& material) {
-  return std::visit([](const auto& m) { return m.eos.density; }, material);
-}
-
-HeatProperties heat_properties(const Material& material) {
-  return std::visit(
-      [](const auto& m) {
-        return HeatProperties{m.eos.density, m.eos.cv, m.conductivity};
-      },
-      material);
+double longitudinal_sound_speed(const Material& m) {
+  const double bulk = conserving_state(m.eos, m.eos.density, 0.0).sound_speed2;
+  return std::sqrt(bulk + 4.0 * m.strength.shear / (3.0 * m.eos.density));
 }
 
 }  // namespace poreshock

@@ -43,7 +43,7 @@ void plastic_increments(const std::vector<Material>& materials, Thermal thermal,
                         const Particles<Dim>& particles, std::span<const std::uint32_t> places,
                         const Columns<Dim>& c, double dt, double* increments) {
   const auto material = static_cast<std::size_t>(particles.material[places[0]]);
-  const auto& m = std::get<J2MieGruneisen>(materials[material]);
+  const auto& m = materials[material];
   double equivalent[block_size], factors[block_size];
   for (std::size_t k = 0; k < places.size(); ++k) {
     const std::size_t i = places[k];

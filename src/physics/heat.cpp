@@ -49,14 +49,13 @@ void divide_by_capacity(SlabGrid& grid) {
 
 /// Nodal temperatures from the particles. Collective.
 template <int Dim, class Spline>
-void collect_temperature(const std::vector<Material>& materials,
-                         const std::vector<HeatProperties>& properties, Thermal thermal,
+void collect_temperature(const std::vector<Material>& materials, Thermal thermal,
                          const CellOrder& cells, const Particles<Dim>& particles, SlabGrid& grid) {
   scatter<Dim>(
       Spline{}, particles, cells,
       [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
         const auto material = static_cast<std::size_t>(particles.material[p]);
-        const double capacity = particles.mass[p] * properties[material].cv;
+        const double capacity = particles.mass[p] * materials[material].eos.cv;
         const double T = particle_temperature<Dim>(particles, materials, thermal, p);
         const Lanes sum{capacity, capacity * T};
         for_each_weight<Dim, Spline>(
@@ -92,17 +91,18 @@ void take_gradient(const std::vector<Material>& materials, Thermal thermal, cons
 /// Rise of the nodal temperatures by what particles hand over; their excess becomes the share that
 /// they hand over. Collective.
 template <int Dim, class Spline>
-void collect_heat(const std::vector<HeatProperties>& properties, const CellOrder& cells, double dt,
+void collect_heat(const std::vector<Material>& materials, const CellOrder& cells, double dt,
                   const Particles<Dim>& particles, HeatFlow<Dim>& scratch, SlabGrid& grid) {
   const double inverse_cell = 1.0 / grid.shape().cell;
   const double excess_rate = 2.0 * Spline::inverse_inertia * (inverse_cell * inverse_cell);
   scatter<Dim>(
       Spline{}, particles, cells,
       [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
-        const HeatProperties& m = properties[static_cast<std::size_t>(particles.material[p])];
-        const double density = particles.density[p] > m.density ? particles.density[p] : m.density;
+        const Material& m = materials[static_cast<std::size_t>(particles.material[p])];
+        const double solid = m.eos.density;
+        const double density = particles.density[p] > solid ? particles.density[p] : solid;
         const double conductance = dt * m.conductivity * (particles.mass[p] / density);
-        const double capacity = particles.mass[p] * m.cv;
+        const double capacity = particles.mass[p] * m.eos.cv;
         scratch.excess[p] *= excess_rate * conductance / capacity;
         std::array<double, Dim> flow;
         for (int a = 0; a < Dim; ++a) {
@@ -121,7 +121,7 @@ void collect_heat(const std::vector<HeatProperties>& properties, const CellOrder
 
 /// Particles take their share of the rise and lose what they handed over.
 template <int Dim, class Spline>
-void take_heat(const std::vector<HeatProperties>& properties, const CellOrder& cells,
+void take_heat(const std::vector<Material>& materials, const CellOrder& cells,
                double inverse_quantum, const SlabGrid& grid, const HeatFlow<Dim>& scratch,
                Particles<Dim>& particles, Int128& gained) {
   const bool separate = particles.options.conducted_heat;
@@ -133,7 +133,7 @@ void take_heat(const std::vector<HeatProperties>& properties, const CellOrder& c
                   rise += value * nodes[n][HeatLane::temperature];
                 });
                 const double heat =
-                    properties[static_cast<std::size_t>(particles.material[p])].cv * rise;
+                    materials[static_cast<std::size_t>(particles.material[p])].eos.cv * rise;
                 particles.internal_energy[p] += heat;
                 if (separate) particles.conducted_heat[p] += heat;
                 sum += quantise(particles.mass[p] * heat, inverse_quantum);
@@ -147,14 +147,11 @@ template <int Dim>
 void conduct_heat(const std::vector<Material>& materials, Thermal thermal, ShapeFunction shape,
                   const CellOrder& cells, double dt, double inverse_quantum, SlabGrid& grid,
                   HeatFlow<Dim>& scratch, Particles<Dim>& particles, Int128& gained) {
-  std::vector<HeatProperties> properties;
-  properties.reserve(materials.size());
-  for (const Material& m : materials) properties.push_back(heat_properties(m));
   const auto run = [&]<class Spline>(Spline) {
-    collect_temperature<Dim, Spline>(materials, properties, thermal, cells, particles, grid);
+    collect_temperature<Dim, Spline>(materials, thermal, cells, particles, grid);
     take_gradient<Dim, Spline>(materials, thermal, cells, grid, particles, scratch);
-    collect_heat<Dim, Spline>(properties, cells, dt, particles, scratch, grid);
-    take_heat<Dim, Spline>(properties, cells, inverse_quantum, grid, scratch, particles, gained);
+    collect_heat<Dim, Spline>(materials, cells, dt, particles, scratch, grid);
+    take_heat<Dim, Spline>(materials, cells, inverse_quantum, grid, scratch, particles, gained);
   };
   shape == ShapeFunction::cubic ? run(CubicSpline{}) : run(QuadraticSpline{});
 }
@@ -162,9 +159,8 @@ void conduct_heat(const std::vector<Material>& materials, Thermal thermal, Shape
 double conduction_limit(const std::vector<Material>& materials, ShapeFunction shape, int dimension,
                         double cell) {
   double diffusivity = 0.0;
-  for (const Material& material : materials) {
-    const HeatProperties m = heat_properties(material);
-    diffusivity = std::max(diffusivity, m.conductivity / (m.density * m.cv));
+  for (const Material& m : materials) {
+    diffusivity = std::max(diffusivity, m.conductivity / (m.eos.density * m.eos.cv));
   }
   if (!(diffusivity > 0.0)) return std::numeric_limits<double>::infinity();
   const double spread =

@@ -22,8 +22,8 @@ struct BlockSums {
 };
 
 // Integers only, and no jumps: then the loop vectorises without leave to reorder sums of doubles.
-[[gnu::noinline]] BlockSums sum_block(const J2MieGruneisen& m, const BlockResults& r,
-                                      std::size_t count, double cell, double inverse_quantum) {
+[[gnu::noinline]] BlockSums sum_block(const Material& m, const BlockResults& r, std::size_t count,
+                                      double cell, double inverse_quantum) {
   // Adding it leaves a number below 2^51 rounded to even in the last bits.
   constexpr double rounder = 0x1.8p52;
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
@@ -49,7 +49,7 @@ struct BlockSums {
   return s;
 }
 
-void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, double cell,
+void reduce(const Material& m, const BlockResults& r, std::size_t count, double cell,
             double inverse_quantum, StressReport& report) {
   const BlockSums s = sum_block(m, r, count, cell, inverse_quantum);
   report.bad += s.bad;
@@ -68,7 +68,7 @@ void reduce(const J2MieGruneisen& m, const BlockResults& r, std::size_t count, d
 // Flattened: the loop vectorises only when all it calls is inlined, and with so many variants the
 // compiler would stop.
 template <int Dim, Yielding How, bool Spall, bool Conserving>
-[[gnu::flatten]] void update_block(const J2MieGruneisen& material,
+[[gnu::flatten]] void update_block(const Material& material,
                                    const StressSettings<Dim>& all_settings, double dt,
                                    const Columns<Dim>& all_columns, std::size_t count,
                                    StressReport& report) {
@@ -76,7 +76,7 @@ template <int Dim, Yielding How, bool Spall, bool Conserving>
   // Local copies: the compiler sees that stores through the columns cannot change them.
   const StressSettings<Dim> settings = all_settings;
   const Columns<Dim> c = all_columns;
-  J2MieGruneisen m;
+  Material m;
   m.eos = material.eos;
   m.strength = material.strength;
   m.plastic_heat = material.plastic_heat;
@@ -177,7 +177,7 @@ void for_each_block(const Particles<Dim>& particles, std::span<const std::uint32
 }
 
 template <int Dim, Yielding How, bool Spall>
-void update_in_mode(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
+void update_in_mode(const Material& m, const StressSettings<Dim>& settings, double dt,
                     const Columns<Dim>& c, std::size_t count, StressReport& report) {
   settings.thermal == Thermal::conserving
       ? update_block<Dim, How, Spall, true>(m, settings, dt, c, count, report)
@@ -198,7 +198,7 @@ void update_all(const std::vector<Material>& materials, const StressSettings<Dim
         Columns<Dim> c{};
         c.particle = fetch<Dim>(all, block, adjacent, copy);
         set_step_columns<Dim>(step, first, c);
-        const auto& m = std::get<J2MieGruneisen>(materials[static_cast<std::size_t>(material)]);
+        const auto& m = materials[static_cast<std::size_t>(material)];
         if (m.flow) {
           plastic_increments<Dim>(materials, settings.thermal, particles, block, c, dt, increments);
           c.plastic_increment = increments;
@@ -213,7 +213,7 @@ void update_all(const std::vector<Material>& materials, const StressSettings<Dim
 }  // namespace
 
 template <int Dim>
-double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& material) {
+double lone_rate(const StressSettings<Dim>& settings, const Material& material) {
   const double bulk = material.eos.bulk, shear = material.strength.shear;
   const double swinging = bulk + (Dim == 2 ? shear / 3.0 : 0.0);
   const double stiffness = Dim * settings.stiffness;
@@ -256,8 +256,8 @@ void initialise_stress(const std::vector<Material>& materials, const StressSetti
   }
 }
 
-template double lone_rate<2>(const StressSettings<2>&, const J2MieGruneisen&);
-template double lone_rate<3>(const StressSettings<3>&, const J2MieGruneisen&);
+template double lone_rate<2>(const StressSettings<2>&, const Material&);
+template double lone_rate<3>(const StressSettings<3>&, const Material&);
 template void update_stress<2>(const std::vector<Material>&, const StressSettings<2>&,
                                const StepData<2>&, double, std::span<const std::uint32_t>,
                                Particles<2>&, StressReport&);

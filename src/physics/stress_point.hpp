@@ -164,7 +164,7 @@ inline void release(const MieGruneisen& law, bool fails, ReturnMapping<Dim>& map
 
 /// One particle, load - call - store.
 template <int Dim, Yielding How, bool Spall, bool Conserving>
-inline void update_particle(const J2MieGruneisen& m, const StressSettings<Dim>& settings, double dt,
+inline void update_particle(const Material& m, const StressSettings<Dim>& settings, double dt,
                             double lone, const Columns<Dim>& c, std::size_t i,
                             BlockResults& results) {
   const ParticlePointers<Dim>& p = c.particle;

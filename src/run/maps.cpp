@@ -26,7 +26,7 @@ PixelField<Dim> map_in_space(const std::vector<std::vector<double>>& columns, Si
   sources.density = particles.density;
   PixelScales scales = {0.0, 2.0 * scene.domain.cell};
   for (const Material& m : sim.materials) {
-    scales.density = std::max(scales.density, initial_density(m));
+    scales.density = std::max(scales.density, m.eos.density);
   }
   PixelField<Dim> map = deposit<Dim>(sources, {columns.begin(), columns.end()}, scales, pixels);
   // The counts are those of all ranks.

@@ -36,7 +36,7 @@ struct Quanta {
 Quanta make_quanta(const Ledger& ledger, const std::vector<Material>& materials,
                    const Scene& scene) {
   double density = 0.0, temperature = temperature_floor;
-  for (const Material& m : materials) density = std::max(density, initial_density(m));
+  for (const Material& m : materials) density = std::max(density, m.eos.density);
   for (const auto& m : scene.materials) temperature = std::max(temperature, m.T0);
   const double per_mass = 1.0 / mass_quantum(ledger);
   return {per_mass, per_mass * power_of_two_below(density), ledger.nodes.inverse_energy_quantum,

@@ -117,17 +117,13 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
     for (int a = 0; a < Dim; ++a) {
       momentum[a] += quantise(m * particles.velocity[a][p], ledger.nodes.inverse_momentum_quantum);
     }
-    const double stored = std::visit(
-        [&](const auto& model) {
-          double e =
-              model.deviatoric_energy(square<Dim>(particles.deviator, p), particles.density[p]);
-          if (particles.options.back_stress) {
-            e += model.back_stress_energy(square<Dim>(particles.back_stress, p),
-                                          particles.density[p]);
-          }
-          return e;
-        },
-        materials[static_cast<std::size_t>(particles.material[p])]);
+    const Material& material = materials[static_cast<std::size_t>(particles.material[p])];
+    double stored =
+        material.deviatoric_energy(square<Dim>(particles.deviator, p), particles.density[p]);
+    if (particles.options.back_stress) {
+      stored += material.back_stress_energy(square<Dim>(particles.back_stress, p),
+                                            particles.density[p]);
+    }
     elastic += quantise(m * stored, per_quantum);
   }
   std::vector<Int128> sums = {kinetic,

@@ -77,7 +77,7 @@ Points<Dim> random_points(std::size_t count, const std::vector<Material>& materi
   const auto centred = [&] { return 2.0 * random.uniform() - 1.0; };
   for (std::size_t i = 0; i < count; ++i) {
     p.material[i] = random.below(static_cast<int>(materials.size()));
-    const auto& law = std::get<J2MieGruneisen>(materials[static_cast<std::size_t>(p.material[i])]);
+    const auto& law = materials[static_cast<std::size_t>(p.material[i])];
     const double solid = law.strength.shear > 0.0 ? 1.0 : 0.0;
     p.mass[i] = 1.0e-7 * (0.5 + random.uniform());
     p.density[i] = 2700.0 * (0.9 + 0.3 * random.uniform());

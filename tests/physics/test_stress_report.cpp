@@ -203,7 +203,7 @@ TEST(TimeStep, SmallestOfAll) {
 }
 
 TEST(Guards, CompressionBeyondTheGuard) {
-  const MieGruneisen& eos = std::get<J2MieGruneisen>(materials[0]).eos;
+  const MieGruneisen& eos = materials[0].eos;
   const std::array<double, 5> eta = {0.0, eos.guard * (1.0 - 1e-12), 0.4, eos.guard * (1.0 + 1e-12),
                                      0.9};
   Points<2> points = at_rest<2>(aluminium, 5);

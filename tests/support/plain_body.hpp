@@ -36,7 +36,7 @@ struct PlainBody {
   std::vector<PlainNode> nodes;
   int width = 0, rows = 0;  ///< nodes; node i lies at (i - 1) cells
   double cell = 0.0;        ///< m
-  J2MieGruneisen material;
+  Material material;
   StressSettings<2> settings;
   double lost = 0.0;      ///< share of the residual of the velocity
   double dt_limit = 0.0;  ///< s, of the last step
@@ -126,7 +126,7 @@ inline PlainBody plain_body(const Particles<2>& particles, const GridShape& shap
   body.rows = shape.rows + 3;
   body.cell = shape.cell;
   body.nodes.resize(static_cast<std::size_t>(body.width) * static_cast<std::size_t>(body.rows));
-  body.material = std::get<J2MieGruneisen>(material);
+  body.material = material;
   body.settings = settings;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     PlainParticle& q = body.particles.emplace_back();

@@ -139,7 +139,7 @@ inline void plain_grid_to_particles(double dt, PlainBody& body) {
 }
 
 /// The constitutive update of one particle; returns its stable step, s.
-inline double plain_stress(const J2MieGruneisen& m, const StressSettings<2>& settings, double dt,
+inline double plain_stress(const Material& m, const StressSettings<2>& settings, double dt,
                            PlainParticle& p) {
   const auto& d = p.middle;
   const double shear_rate = 0.5 * (d[0][1] + d[1][0]);

@@ -116,8 +116,8 @@ inline std::unordered_map<std::int64_t, std::size_t> index_by_id(const Simulatio
   return index;
 }
 
-inline const J2MieGruneisen& first_material(const Simulation<2>& sim) {
-  return std::get<J2MieGruneisen>(sim.materials.front());
+inline const Material& first_material(const Simulation<2>& sim) {
+  return sim.materials.front();
 }
 
 /// Density (kg/m^3) at which the reference curve has pressure p (Pa); small compressions only.

@@ -183,7 +183,7 @@ void press(double pressure, double inner, double dt, Simulation<2>& sim) {
 /// the rigid-plastic equation without first being strained.
 void load_to_flow(Simulation<2>& sim) {
   Particles<2>& q = sim.particles;
-  const J2MieGruneisen& m = first_material(sim);
+  const Material& m = first_material(sim);
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Plane x = position(sim, p);
     const double r2 = x[0] * x[0] + x[1] * x[1], s = 0.5 * ring_stress;

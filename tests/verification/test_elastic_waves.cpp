@@ -162,7 +162,7 @@ std::unordered_map<std::int64_t, std::array<double, 12>> motions(const Simulatio
 
 /// Strain energy of the particles: deviator and reference curve, J.
 double strain_energy(const Simulation<2>& sim) {
-  const J2MieGruneisen& m = first_material(sim);
+  const Material& m = first_material(sim);
   double energy = 0.0;
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
     const double density = sim.particles.density[p];

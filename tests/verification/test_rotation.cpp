@@ -11,7 +11,7 @@ constexpr double centre = 0.15e-3;
 constexpr double spin = 3.0e6;  // rad/s: 300 m/s at the rim
 
 /// Poisson's ratio of small strains: shear modulus from the table, bulk modulus rho0 c0^2.
-double poisson(const J2MieGruneisen& m) {
+double poisson(const Material& m) {
   const double K = m.eos.bulk, G = m.strength.shear;
   return (3.0 * K - 2.0 * G) / (6.0 * K + 2.0 * G);
 }
@@ -54,7 +54,7 @@ std::array<double, 3> equilibrium(double r, double nu, double residual) {
 
 void set_stress(double residual, Simulation<2>& sim) {
   Particles<2>& q = sim.particles;
-  const J2MieGruneisen& m = first_material(sim);
+  const Material& m = first_material(sim);
   const double nu = poisson(m);
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Plane x = position(sim, p);

@@ -1,13 +1,10 @@
 #pragma once
 // Materials: their parameters as a scene states them, the constants kernels use, and what follows
-// from a particle's state. A material model is a struct with the members the concept names; the
-// models are listed once, in the variant `Material`.
+// from a particle's state. There is one model, of parts: equation of state, strength and heat.
 
-#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "poreshock/material/flow_stress.hpp"
 #include "poreshock/material/j2_plasticity.hpp"
@@ -73,7 +70,7 @@ struct MaterialParameters {
 };
 
 /// J2 plasticity with a Mie-Grueneisen equation of state.
-struct J2MieGruneisen {
+struct Material {
   MieGruneisen eos;
   J2Plasticity strength;
   std::optional<FlowStress> flow;  ///< in place of linear hardening
@@ -93,19 +90,6 @@ struct J2MieGruneisen {
                : 0.0;
   }
 };
-
-/// What every material model offers to the kernels.
-template <class T>
-concept MaterialModel = requires(const T& m, double x) {
-  { m.deviatoric_energy(x, x) } -> std::convertible_to<double>;
-  { m.back_stress_energy(x, x) } -> std::convertible_to<double>;
-  { m.eos.density } -> std::convertible_to<double>;
-  { m.eos.cv } -> std::convertible_to<double>;
-  { m.conductivity } -> std::convertible_to<double>;
-};
-
-using Material = std::variant<J2MieGruneisen>;
-static_assert(MaterialModel<J2MieGruneisen>);
 
 /// Constants of a material from its parameters.
 Material make_material(const MaterialParameters& parameters);
@@ -128,17 +112,5 @@ double temperature(const Material& material, Thermal thermal, const ThermalState
 
 /// Longitudinal sound speed of the undisturbed material, m/s.
 double longitudinal_sound_speed(const Material& material);
-
-/// Density of the undisturbed material, kg/m^3.
-double initial_density(const Material& material);
-
-/// What conduction of heat needs to know of a material.
-struct HeatProperties {
-  double density;       ///< kg/m^3, undisturbed
-  double cv;            ///< J/(kg K)
-  double conductivity;  ///< W/(m K)
-};
-
-HeatProperties heat_properties(const Material& material);
 
 }  // namespace poreshock

@@ -40,7 +40,7 @@ struct StressReport {
 /// a step of h/(r c) is stable while e/r^2 + 2 v/r < 4. Among neighbours it is less stiff. Not
 /// collective.
 template <int Dim>
-double lone_rate(const StressSettings<Dim>& settings, const J2MieGruneisen& material);
+double lone_rate(const StressSettings<Dim>& settings, const Material& material);
 
 /// Advances the state of the particles at `places`, indices into the columns; entry k of the step
 /// data is for places[k]. The report is added to (numerics: incremental polar decomposition, radial
