@@ -13,6 +13,74 @@ namespace poreshock {
 
 namespace {
 
+/// What an energy of a row is: none of the heat so far, heat, or heat that the numerics made.
+enum class Heat { none, physical, numerical };
+
+struct EnergyColumn {
+  const char* name;
+  double HistoryRow::*value;
+  Heat heat = Heat::none;
+};
+
+/// Energies in the order of the file.
+constexpr std::array<EnergyColumn, 14> energy_columns = {{
+    {"kinetic", &HistoryRow::kinetic},
+    {"internal", &HistoryRow::internal},
+    {"escaped", &HistoryRow::escaped},
+    {"wall_work", &HistoryRow::wall_work},
+    {"body_work", &HistoryRow::body_work},
+    {"total", &HistoryRow::total},
+    {"elastic", &HistoryRow::elastic},
+    {"plastic_work", &HistoryRow::plastic_work, Heat::physical},
+    {"viscous_heat", &HistoryRow::viscous_heat, Heat::physical},
+    {"filter_heat", &HistoryRow::filter_heat, Heat::numerical},
+    {"wall_heat", &HistoryRow::wall_heat, Heat::physical},
+    {"contact_heat", &HistoryRow::contact_heat, Heat::numerical},
+    {"friction_heat", &HistoryRow::friction_heat, Heat::physical},
+    {"conduction", &HistoryRow::conduction},
+}};
+
+struct MomentumColumn {
+  const char* name;
+  std::array<double, 3> HistoryRow::*value;
+};
+
+constexpr std::array<MomentumColumn, 5> momentum_columns = {{
+    {"momentum", &HistoryRow::momentum},
+    {"escaped_momentum", &HistoryRow::escaped_momentum},
+    {"wall_impulse", &HistoryRow::wall_impulse},
+    {"body_impulse", &HistoryRow::body_impulse},
+    {"total_momentum", &HistoryRow::total_momentum},
+}};
+
+/// Calls visit(name, unit, value) for all numbers of a row in the order of the file.
+template <class Visitor>
+void for_each_value(const HistoryRow& row, int dimension, Visitor&& visit) {
+  const bool plane = dimension == 2;
+  visit("time", "s", row.time);
+  visit("step", "-", row.step);
+  visit("dt", "s", row.dt);
+  visit("particles", "-", row.particles);
+  for (const EnergyColumn& column : energy_columns) {
+    visit(column.name, plane ? "J/m" : "J", row.*column.value);
+  }
+  for (const MomentumColumn& column : momentum_columns) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+      visit(std::string(column.name) + "_" + "xyz"[a], plane ? "kg/s" : "kg m/s",
+            (row.*column.value)[a]);
+    }
+  }
+  visit("wall_force", plane ? "N/m" : "N", row.wall_force);
+  visit("numerical_share", "-", numerical_share(row));
+  visit("guards", "-", row.guards);
+  if (!row.contact) return;
+  visit("contact_nodes", "-", row.contact->nodes);
+  visit("crowded_nodes", "-", row.contact->crowded);
+  visit("least_gap", "m", row.contact->least_gap);
+  visit("penetration", "m", row.contact->penetration);
+  visit("momentum_residual", "-", row.contact->residual);
+}
+
 void add(double value, std::string& line) {
   char text[64];
   const auto end =
@@ -63,68 +131,36 @@ std::string kept_rows(const std::string& path, int dimension, bool grains, std::
 }  // namespace
 
 double all_heat(const HistoryRow& row) {
-  return row.plastic_work + row.viscous_heat + row.filter_heat + row.wall_heat + row.contact_heat +
-         row.friction_heat;
+  double heat = 0.0;
+  for (const EnergyColumn& column : energy_columns) {
+    if (column.heat != Heat::none) heat += row.*column.value;
+  }
+  return heat;
 }
 
 double numerical_share(const HistoryRow& row) {
   const double heat = all_heat(row);
-  return heat > 0.0 ? (row.filter_heat + row.contact_heat) / heat : 0.0;
+  double numerical = 0.0;
+  for (const EnergyColumn& column : energy_columns) {
+    if (column.heat == Heat::numerical) numerical += row.*column.value;
+  }
+  return heat > 0.0 ? numerical / heat : 0.0;
 }
 
 std::string history_header(int dimension, bool grains) {
-  const bool plane = dimension == 2;
-  const std::string energy = plane ? " [J/m]" : " [J]";
-  const std::string momentum = plane ? " [kg/s]" : " [kg m/s]";
-  std::string header = "time [s],step [-],dt [s],particles [-]";
-  for (const char* name : {"kinetic", "internal", "escaped", "wall_work", "body_work", "total",
-                           "elastic", "plastic_work", "viscous_heat", "filter_heat", "wall_heat",
-                           "contact_heat", "friction_heat", "conduction"}) {
-    header.append(",").append(name).append(energy);
-  }
-  for (const char* name :
-       {"momentum", "escaped_momentum", "wall_impulse", "body_impulse", "total_momentum"}) {
-    for (const char* axis : {"_x", "_y", "_z"}) {
-      if (plane && axis[1] == 'z') continue;
-      header.append(",").append(name).append(axis).append(momentum);
-    }
-  }
-  header.append(",wall_force").append(plane ? " [N/m]" : " [N]").append(",numerical_share [-]");
-  header.append(",guards [-]");
-  if (grains) {
-    header.append(
-        ",contact_nodes [-],crowded_nodes [-],least_gap [m],penetration [m],momentum_residual [-]");
-  }
+  HistoryRow row;
+  if (grains) row.contact.emplace();
+  std::string header;
+  for_each_value(row, dimension, [&](const std::string& name, const char* unit, auto) {
+    header.append(header.empty() ? "" : ",").append(name + " [" + unit + "]");
+  });
   return header;
 }
 
 std::string history_line(const HistoryRow& row, int dimension) {
   std::string line;
-  add(row.time, line);
-  add(row.step, line);
-  add(row.dt, line);
-  add(row.particles, line);
-  for (const double value :
-       {row.kinetic, row.internal, row.escaped, row.wall_work, row.body_work, row.total,
-        row.elastic, row.plastic_work, row.viscous_heat, row.filter_heat, row.wall_heat,
-        row.contact_heat, row.friction_heat, row.conduction}) {
-    add(value, line);
-  }
-  for (const auto* values : {&row.momentum, &row.escaped_momentum, &row.wall_impulse,
-                             &row.body_impulse, &row.total_momentum}) {
-    for (int a = 0; a < dimension; ++a) add((*values)[static_cast<std::size_t>(a)], line);
-  }
-  add(row.wall_force, line);
-  add(numerical_share(row), line);
-  add(row.guards, line);
-  if (row.contact) {
-    add(row.contact->nodes, line);
-    add(row.contact->crowded, line);
-    for (const double value :
-         {row.contact->least_gap, row.contact->penetration, row.contact->residual}) {
-      add(value, line);
-    }
-  }
+  for_each_value(row, dimension,
+                 [&](const std::string&, const char*, auto value) { add(value, line); });
   return line;
 }
 

@@ -145,23 +145,23 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
     warn(std::string(failure.what()) + "; timings.json is left out", sim.communicator);
   }
   const Ledger& l = sim.ledger;
-  std::vector<std::int64_t> guards = {
-      l.guards.compression, l.guards.sound_speed,   l.guards.wall_crossing, l.guards.temperature,
-      l.guards.pixel,       l.guards.negative_heat, l.escaped_particles,    l.shortened};
-  sum(guards, sim.communicator);
+  std::vector<std::int64_t> counts = {l.escaped_particles, l.shortened};
+  for (const GuardCounter& guard : guard_counters) counts.push_back(l.guards.*guard.count);
+  sum(counts, sim.communicator);
   std::vector<Int128> escaped = {l.escaped_mass};
   sum(escaped, sim.communicator);
   if (rank(sim.communicator) != 0) return;
   if (!options.quiet) std::printf("\n%s", timings_table(timings).c_str());
-  const auto count = [&](std::size_t k) { return static_cast<long long>(guards[k]); };
-  std::printf(
-      "energy drift %.1e, guards: compression %lld, sound speed %lld, wall %lld, temperature %lld, "
-      "pixel %lld, negative heat %lld; "
-      "escaped particles %lld (%.6g %s); checksum %016llx\n",
-      energy_status(sim, recorder).drift, count(0), count(1), count(2), count(3), count(4),
-      count(5), count(6), static_cast<double>(escaped[0]) * mass_quantum(l),
-      Dim == 2 ? "kg/m" : "kg", static_cast<unsigned long long>(bits));
-  show_heat(recorder.last_row, sim.scene, count(7));
+  std::string guards;
+  for (std::size_t k = 0; k < guard_counters.size(); ++k) {
+    guards += std::string(k == 0 ? "" : ", ") + guard_counters[k].name + " " +
+              std::to_string(counts[k + 2]);
+  }
+  std::printf("energy drift %.1e, guards: %s; escaped particles %lld (%.6g %s); checksum %016llx\n",
+              energy_status(sim, recorder).drift, guards.c_str(), static_cast<long long>(counts[0]),
+              static_cast<double>(escaped[0]) * mass_quantum(l), Dim == 2 ? "kg/m" : "kg",
+              static_cast<unsigned long long>(bits));
+  show_heat(recorder.last_row, sim.scene, static_cast<long long>(counts[1]));
   for (const std::string& name : recorder.backlog.left_out) {
     std::printf("left out: %s\n", name.c_str());
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <type_traits>
 
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/particles/derived.hpp"
@@ -13,36 +15,57 @@ namespace {
 /// Quanta per reference energy of a particle: 2^50 leaves a factor 2^12 for hot particles.
 constexpr double quanta_per_particle = 1125899906842624.0;
 
-/// Visits all 128-bit sums in a fixed order.
-template <class LedgerType, class Visitor>
-void for_each_sum(LedgerType& l, Visitor&& visit) {
-  visit(l.nodes.wall_heat);
-  visit(l.nodes.contact_heat);
-  visit(l.nodes.friction_heat);
-  visit(l.nodes.wall_work);
-  visit(l.nodes.body_work);
-  for (auto& x : l.nodes.body_impulse) visit(x);
-  for (auto& x : l.nodes.wall_impulse) visit(x);
-  visit(l.viscous_heat);
-  visit(l.transfer_heat);
-  visit(l.conduction);
-  visit(l.escaped_energy);
-  visit(l.escaped_mass);
-  for (auto& x : l.escaped_momentum) visit(x);
-  visit(l.row_wall_impulse);
+/// What the particles hold now, of this rank, in quanta.
+struct Stock {
+  Int128 kinetic = 0, internal = 0, elastic = 0, plastic = 0;
+  std::array<Int128, 3> momentum{};
+};
+
+/// Calls visit(sum, where the history shows it, its sign in the total) for all that particles hold.
+template <class Visitor>
+void for_each_sum(const Stock& stock, Visitor&& visit) {
+  visit(stock.kinetic, &HistoryRow::kinetic, 1);
+  visit(stock.internal, &HistoryRow::internal, 1);
+  visit(stock.elastic, &HistoryRow::elastic, 0);
+  visit(stock.plastic, &HistoryRow::plastic_work, 0);
+  visit(stock.momentum, &HistoryRow::momentum, 1);
 }
 
-/// Visits all counters in a fixed order.
+/// The same for all cumulative sums; their order is the checkpoint format. Null: not shown.
+template <class LedgerType, class Visitor>
+void for_each_sum(LedgerType& l, Visitor&& visit) {
+  visit(l.nodes.wall_heat, &HistoryRow::wall_heat, 0);
+  visit(l.nodes.contact_heat, &HistoryRow::contact_heat, 0);
+  visit(l.nodes.friction_heat, &HistoryRow::friction_heat, 0);
+  visit(l.nodes.wall_work, &HistoryRow::wall_work, -1);
+  visit(l.nodes.body_work, &HistoryRow::body_work, -1);
+  visit(l.nodes.body_impulse, &HistoryRow::body_impulse, -1);
+  visit(l.nodes.wall_impulse, &HistoryRow::wall_impulse, -1);
+  visit(l.viscous_heat, &HistoryRow::viscous_heat, 0);
+  visit(l.transfer_heat, &HistoryRow::filter_heat, 0);
+  visit(l.conduction, &HistoryRow::conduction, 0);
+  visit(l.escaped_energy, &HistoryRow::escaped, 1);
+  visit(l.escaped_mass, nullptr, 0);
+  visit(l.escaped_momentum, &HistoryRow::escaped_momentum, 1);
+  visit(l.row_wall_impulse, nullptr, 0);
+}
+
+/// Visits all counters in the order of the checkpoint format.
 template <class LedgerType, class Visitor>
 void for_each_counter(LedgerType& l, Visitor&& visit) {
   visit(l.escaped_particles);
-  visit(l.guards.compression);
-  visit(l.guards.sound_speed);
-  visit(l.guards.wall_crossing);
-  visit(l.guards.temperature);
-  visit(l.guards.pixel);
-  visit(l.guards.negative_heat);
+  for (const GuardCounter& guard : guard_counters) visit(l.guards.*guard.count);
   visit(l.shortened);
+}
+
+/// The numbers of a sum: one of energy or mass, or the components of momentum.
+template <class Sum>
+auto numbers_of(Sum& sum) {
+  if constexpr (std::is_same_v<std::remove_const_t<Sum>, Int128>) {
+    return std::span(&sum, 1);
+  } else {
+    return std::span(sum);
+  }
 }
 
 template <int Dim>
@@ -52,25 +75,62 @@ double square(const std::array<std::vector<double>, symmetric_size<Dim>>& tensor
   return contract<Dim>(t, t);
 }
 
-/// Momentum now, what left and what was given, and their sum, which stays. Collective.
-void balance_momentum(const std::array<Int128, 3>& momentum, const Ledger& ledger,
-                      MPI_Comm communicator, HistoryRow& row) {
-  std::vector<Int128> sums;
-  for (const auto* triple : {&momentum, &ledger.escaped_momentum, &ledger.nodes.wall_impulse,
-                             &ledger.nodes.body_impulse}) {
-    sums.insert(sums.end(), triple->begin(), triple->end());
+template <int Dim>
+Stock add_up(const Scene& scene, const std::vector<Material>& materials,
+             const Particles<Dim>& particles, const Ledger& ledger) {
+  const double inertia = affine_inertia(scene.transfer, scene.domain.cell);
+  const double per_quantum = ledger.nodes.inverse_energy_quantum;
+  Stock stock;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double m = particles.mass[p];
+    stock.kinetic += quantise(m * kinetic_energy(particles, inertia, p), per_quantum);
+    stock.internal += quantise(m * particles.internal_energy[p], per_quantum);
+    stock.plastic += quantise(m * particles.plastic_work[p], per_quantum);
+    for (int a = 0; a < Dim; ++a) {
+      stock.momentum[a] +=
+          quantise(m * particles.velocity[a][p], ledger.nodes.inverse_momentum_quantum);
+    }
+    const Material& material = materials[static_cast<std::size_t>(particles.material[p])];
+    double stored =
+        material.deviatoric_energy(square<Dim>(particles.deviator, p), particles.density[p]);
+    if (particles.options.back_stress) {
+      stored +=
+          material.back_stress_energy(square<Dim>(particles.back_stress, p), particles.density[p]);
+    }
+    stock.elastic += quantise(m * stored, per_quantum);
   }
-  sum(sums, communicator);
+  return stock;
+}
+
+/// The row of sums over all ranks, in the order in which `visit_sums` visits them.
+template <class VisitSums>
+HistoryRow make_row(const Ledger& ledger, const std::vector<Int128>& sums,
+                    const VisitSums& visit_sums) {
+  HistoryRow row;
+  std::size_t at = 0;
+  Int128 total = 0;
+  std::array<Int128, 3> total_momentum{};
+  const auto in = [](Int128 quanta, double quantum) {
+    return static_cast<double>(quanta) * quantum;
+  };
+  visit_sums([&]<class Sum, class Place>(const Sum&, Place place, int sign) {
+    if constexpr (std::is_null_pointer_v<Place>) {
+      ++at;
+    } else if constexpr (std::is_same_v<Sum, Int128>) {
+      row.*place = in(sums[at], ledger.energy_quantum);
+      total += sign * sums[at++];
+    } else {
+      for (std::size_t a = 0; a < 3; ++a) {
+        (row.*place)[a] = in(sums[at], ledger.momentum_quantum);
+        total_momentum[a] += sign * sums[at++];
+      }
+    }
+  });
+  row.total = in(total, ledger.energy_quantum);
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto value = [&](Int128 quanta) {
-      return static_cast<double>(quanta) * ledger.momentum_quantum;
-    };
-    row.momentum[a] = value(sums[a]);
-    row.escaped_momentum[a] = value(sums[3 + a]);
-    row.wall_impulse[a] = value(sums[6 + a]);
-    row.body_impulse[a] = value(sums[9 + a]);
-    row.total_momentum[a] = value(sums[a] + sums[3 + a] - sums[6 + a] - sums[9 + a]);
+    row.total_momentum[a] = in(total_momentum[a], ledger.momentum_quantum);
   }
+  return row;
 }
 
 }  // namespace
@@ -105,67 +165,22 @@ template <int Dim>
 HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials,
                       const Particles<Dim>& particles, const Ledger& ledger,
                       MPI_Comm communicator) {
-  const double inertia = affine_inertia(scene.transfer, scene.domain.cell);
-  const double per_quantum = ledger.nodes.inverse_energy_quantum;
-  Int128 kinetic = 0, internal = 0, elastic = 0, plastic = 0;
-  std::array<Int128, 3> momentum{};
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double m = particles.mass[p];
-    kinetic += quantise(m * kinetic_energy(particles, inertia, p), per_quantum);
-    internal += quantise(m * particles.internal_energy[p], per_quantum);
-    plastic += quantise(m * particles.plastic_work[p], per_quantum);
-    for (int a = 0; a < Dim; ++a) {
-      momentum[a] += quantise(m * particles.velocity[a][p], ledger.nodes.inverse_momentum_quantum);
-    }
-    const Material& material = materials[static_cast<std::size_t>(particles.material[p])];
-    double stored =
-        material.deviatoric_energy(square<Dim>(particles.deviator, p), particles.density[p]);
-    if (particles.options.back_stress) {
-      stored += material.back_stress_energy(square<Dim>(particles.back_stress, p),
-                                            particles.density[p]);
-    }
-    elastic += quantise(m * stored, per_quantum);
-  }
-  std::vector<Int128> sums = {kinetic,
-                              internal,
-                              elastic,
-                              plastic,
-                              ledger.escaped_energy,
-                              ledger.nodes.wall_work,
-                              ledger.nodes.body_work,
-                              ledger.viscous_heat,
-                              ledger.transfer_heat,
-                              ledger.nodes.wall_heat,
-                              ledger.conduction,
-                              ledger.nodes.contact_heat,
-                              ledger.nodes.friction_heat};
-  sum(sums, communicator);
-  std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()),
-                                      ledger.guards.compression + ledger.guards.sound_speed +
-                                          ledger.guards.wall_crossing + ledger.guards.temperature +
-                                          ledger.guards.pixel + ledger.guards.negative_heat};
-  sum(counts, communicator);
-  const auto energy = [&](Int128 quanta) {
-    return static_cast<double>(quanta) * ledger.energy_quantum;
+  const Stock stock = add_up(scene, materials, particles, ledger);
+  const auto visit_sums = [&](auto&& visit) {
+    for_each_sum(stock, visit);
+    for_each_sum(ledger, visit);
   };
-  HistoryRow row;
+  std::vector<Int128> sums;
+  visit_sums([&](const auto& one, auto, int) {
+    for (const Int128& x : numbers_of(one)) sums.push_back(x);
+  });
+  sum(sums, communicator);
+  std::vector<std::int64_t> counts = {static_cast<std::int64_t>(particles.size()), 0};
+  for (const GuardCounter& guard : guard_counters) counts[1] += ledger.guards.*guard.count;
+  sum(counts, communicator);
+  HistoryRow row = make_row(ledger, sums, visit_sums);
   row.particles = counts[0];
   row.guards = counts[1];
-  row.kinetic = energy(sums[0]);
-  row.internal = energy(sums[1]);
-  row.elastic = energy(sums[2]);
-  row.plastic_work = energy(sums[3]);
-  row.escaped = energy(sums[4]);
-  row.wall_work = energy(sums[5]);
-  row.body_work = energy(sums[6]);
-  row.viscous_heat = energy(sums[7]);
-  row.filter_heat = energy(sums[8]);
-  row.wall_heat = energy(sums[9]);
-  row.conduction = energy(sums[10]);
-  row.contact_heat = energy(sums[11]);
-  row.friction_heat = energy(sums[12]);
-  row.total = energy(sums[0] + sums[1] + sums[4] - sums[5] - sums[6]);
-  balance_momentum(momentum, ledger, communicator, row);
   return row;
 }
 
@@ -198,7 +213,9 @@ void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia,
 
 std::vector<std::int64_t> save(const Ledger& ledger, MPI_Comm communicator) {
   std::vector<Int128> sums;
-  for_each_sum(ledger, [&](const Int128& x) { sums.push_back(x); });
+  for_each_sum(ledger, [&](const auto& one, auto, int) {
+    for (const Int128& x : numbers_of(one)) sums.push_back(x);
+  });
   sum(sums, communicator);
   std::vector<std::int64_t> counters;
   for_each_counter(ledger, [&](const std::int64_t& x) { counters.push_back(x); });
@@ -210,9 +227,11 @@ std::vector<std::int64_t> save(const Ledger& ledger, MPI_Comm communicator) {
 
 void restore(const std::vector<std::int64_t>& words, bool root, Ledger& ledger) {
   std::size_t at = 0;
-  for_each_sum(ledger, [&](Int128& x) {
-    x = root ? from_words({words.at(at), words.at(at + 1)})[0] : Int128{0};
-    at += 2;
+  for_each_sum(ledger, [&](auto& one, auto, int) {
+    for (Int128& x : numbers_of(one)) {
+      x = root ? from_words({words.at(at), words.at(at + 1)})[0] : Int128{0};
+      at += 2;
+    }
   });
   for_each_counter(ledger, [&](std::int64_t& x) { x = root ? words.at(at) : 0, ++at; });
 }

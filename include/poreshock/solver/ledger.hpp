@@ -19,6 +19,22 @@ struct Guards {
   std::int64_t negative_heat = 0;  ///< heat of the transfer below zero beyond rounding
 };
 
+/// One of the guards, as the end of a run names it.
+struct GuardCounter {
+  const char* name;
+  std::int64_t Guards::*count;
+};
+
+/// All guards, in the order of the checkpoint format.
+inline constexpr std::array<GuardCounter, 6> guard_counters = {{
+    {"compression", &Guards::compression},
+    {"sound speed", &Guards::sound_speed},
+    {"wall", &Guards::wall_crossing},
+    {"temperature", &Guards::temperature},
+    {"pixel", &Guards::pixel},
+    {"negative heat", &Guards::negative_heat},
+}};
+
 /// Cumulative sums of this rank since the start; only the sum over all ranks has a meaning.
 struct Ledger {
   double energy_quantum = 1.0;    ///< J
