@@ -20,6 +20,16 @@ std::string json(double value) {
   return {text, end};
 }
 
+/// A text in quotes; control characters become spaces.
+std::string json(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return quoted + "\"";
+}
+
 std::string json(const PhaseTiming& phase) {
   return "{\"name\": \"" + phase.name + "\", \"min\": " + json(phase.min) +
          ", \"avg\": " + json(phase.avg) + ", \"max\": " + json(phase.max) +
@@ -67,7 +77,11 @@ void write_timings(const std::string& path, const Timings& timings, MPI_Comm com
     for (std::size_t i = 0; i < timings.phases.size(); ++i) {
       text += (i > 0 ? ",\n    " : "\n    ") + json(timings.phases[i]);
     }
-    write_text(path, text + "\n  ]\n}\n");
+    text += "\n  ],\n  \"warnings\": [";
+    for (std::size_t i = 0; i < timings.warnings.size(); ++i) {
+      text += (i > 0 ? ",\n    " : "\n    ") + json(timings.warnings[i]);
+    }
+    write_text(path, text + (timings.warnings.empty() ? "]\n}\n" : "\n  ]\n}\n"));
   });
 }
 

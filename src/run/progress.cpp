@@ -101,6 +101,7 @@ Timings final_timings(const Clock& clock, const PhaseTable& phases, const WorkMe
   timings.bytes_per_particle = static_cast<double>(memory) * per_particle;
   timings.bytes_at_once = static_cast<double>(progress.most_own) * per_particle;
   timings.phases = gather_phases(phases, communicator);
+  timings.warnings = progress.warnings;
   return timings;
 }
 

@@ -18,6 +18,7 @@
 #include "poreshock/run/progress.hpp"
 #include "poreshock/run/records.hpp"
 #include "poreshock/run/start_warnings.hpp"
+#include "poreshock/sample/fill.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
@@ -75,6 +76,16 @@ void show_heat(const HistoryRow& row, const Scene& scene, long long shortened) {
       "warning: numerical dissipation is %.0f %% of all heat; above 15 %% the cells are too coarse "
       "for the heat of this sample. Set domain.cell to %.3g m or less.\n",
       100.0 * numerical_share(row), 0.5 * scene.domain.cell);
+}
+
+/// Prints what can hardly be meant; returns it with what `check` says of the sample. Collective.
+template <int Dim>
+std::vector<std::string> warn_of_start(const Simulation<Dim>& sim) {
+  std::vector<std::string> warnings = start_warnings(sim);
+  for (const std::string& warning : warnings) warn(warning, sim.communicator);
+  const std::vector<std::string> more = sample_warnings(sim.scene, sim.sample);
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
 }
 
 /// True when nothing is left to compute. Not collective.
@@ -218,9 +229,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);
-  if (!restarted) {
-    for (const std::string& warning : start_warnings(sim)) warn(warning, communicator);
-  }
+  if (!restarted) progress.warnings = warn_of_start(sim);
   // The map's rows may not suffice for the ranks, which is better said before anything is removed.
   std::unique_ptr<PixelGrid<Dim>> pixels = make_pixels(sim);
   if (options.continues) require_same_records(options.folder, sim);

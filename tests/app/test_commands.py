@@ -1,5 +1,6 @@
 """The commands that run nothing: check, sample, info, and the options that print and end."""
 import math
+import json
 import re
 import shutil
 import subprocess
@@ -225,6 +226,11 @@ class Commands(ProgramTest):
         self.assertTrue(text.startswith("run/morphology.h5: morphology of poreshock\ncontent   intact\n"), text)
         self.assertRegex(text, rf"\n  /temperature/F +int64  {rows} x 60\n")
         self.assertRegex(text, r"\n  /pressure/threshold +float64  2  Pa\n")
+
+    def test_timings_hold_the_warnings_of_check(self):
+        warnings = re.findall(r"^warning: (.*)$", self.succeed("check", "porous.toml").output, re.M)
+        self.assertGreater(len(warnings), 1)
+        self.assertEqual(json.loads((self.folder / "run/timings.json").read_text())["warnings"], warnings)
 
     def test_info_on_text_files(self):
         text = self.info("run/history.csv")

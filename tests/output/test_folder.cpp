@@ -212,12 +212,15 @@ TEST(Timings, AreJsonAndGatherAllRanks) {
   EXPECT_EQ(timings.phases[0].min, 1.0);
   EXPECT_EQ(timings.phases[0].max, static_cast<double>(size(world)));
   EXPECT_EQ(timings.phases[0].avg, 0.5 * (1 + size(world)));
+  timings.warnings = {"a \"b\" \\ c", "two\nlines"};
   write_timings(folder / "timings.json", timings, world);
   const std::string check =
       "import json,sys; t = json.load(open(sys.argv[1])); "
       "assert t['ranks'] == int(sys.argv[2]) and t['wall_seconds'] == 2.5 and t['steps'] == 10; "
       "assert t['particle_steps'] == 12345678901 and t['rate_per_core'] is None; "
-      "p = t['phases'][0]; assert p['name'] == 'stress' and p['min'] == 1 and p['calls'] == 5";
+      "p = t['phases'][0]; assert p['name'] == 'stress' and p['min'] == 1 and p['calls'] == 5; "
+      "q = chr(34); assert t['warnings'] == ['a ' + q + 'b' + q + ' ' + chr(92) + ' c', 'two "
+      "lines']";
   if (rank(world) == 0) {
     const std::string command = "/usr/bin/python3 -c \"" + check + "\" " +
                                 (folder / "timings.json") + " " + std::to_string(size(world));

@@ -12,7 +12,6 @@ HEAT = {"plastic work": ("plastic_work",), "artificial viscosity": ("viscous_hea
         "impulses between grains (numerical)": ("contact_heat",)}
 MOST_NUMERICAL = 0.15  # share of all heat, as in the program's own warning
 MOST_DRIFT = 1e-10
-LEAST_CELLS = 16  # per void diameter, as in the program's own warning
 KINDS = {"random_voids": "a block with voids", "packed_grains": "packed grains", "voronoi_grains": "Voronoi grains",
          "image": "a sample from an image", "solid": "a solid block", "none": "bodies"}
 
@@ -114,10 +113,10 @@ def warnings(folder, scene, start):
         found += warnings_of_history(folder, scene)
     except (reader.Missing, KeyError):
         pass  # the energy section says so
-    sample = scene.get("sample", {})
-    cells = 2.0 * sample.get("void_radius", 0.0) / scene.get("domain", {}).get("cell", numpy.inf)
-    if sample.get("kind") == "random_voids" and cells < LEAST_CELLS:
-        found.append(f"A void is only {cells:.3g} cells across; below {LEAST_CELLS} its collapse is not resolved.")
+    try:
+        found += [str(text) for text in reader.read_timings(folder).get("warnings", [])]
+    except (reader.Missing, TypeError):
+        pass
     if (folder / "failed.h5").exists():
         found.append("The state of the run went bad; failed.h5 holds it.")
     try:

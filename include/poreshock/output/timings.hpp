@@ -1,5 +1,5 @@
 #pragma once
-// timings.json: where the time of a run went.
+// timings.json: where the time of a run went, and what it was warned of at its start.
 
 #include <mpi.h>
 
@@ -31,6 +31,7 @@ struct Timings {
   double bytes_at_once = 0.0;  ///< the most of all ranks at one time, without code of libraries
   double rate_per_core = 0.0;  ///< particle steps per second and rank
   std::vector<PhaseTiming> phases;
+  std::vector<std::string> warnings;  ///< of the scene and its sample; none of a restarted run
 };
 
 /// Least, mean and largest time of every phase that was called on any rank. Collective.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "poreshock/core/phase.hpp"
 #include "poreshock/output/timings.hpp"
@@ -16,16 +17,17 @@ namespace poreshock {
 
 /// What the next progress row is computed from.
 struct Progress {
-  double start_wall = 0.0;          ///< s, MPI_Wtime at the start of the run
-  std::int64_t start_memory = 0;    ///< bytes, peak_memory at the start of the run
-  std::int64_t start_own = 0;       ///< bytes, own_memory at the start of the run
-  std::int64_t most_own = 0;        ///< bytes beyond it, of all ranks at one time
-  std::int64_t particle_steps = 0;  ///< of this rank since the start
-  std::int64_t sleeping_steps = 0;  ///< those of them in rows asleep
-  TimeToGo to_go;                   ///< with the last row
-  double row_communication = 0.0;   ///< s, of all ranks up to the last row
-  double row_compute = 0.0;         ///< s, of this rank up to the last row
-  double row_all_compute = 0.0;     ///< s, of all ranks up to the last row
+  double start_wall = 0.0;            ///< s, MPI_Wtime at the start of the run
+  std::int64_t start_memory = 0;      ///< bytes, peak_memory at the start of the run
+  std::int64_t start_own = 0;         ///< bytes, own_memory at the start of the run
+  std::int64_t most_own = 0;          ///< bytes beyond it, of all ranks at one time
+  std::int64_t particle_steps = 0;    ///< of this rank since the start
+  std::int64_t sleeping_steps = 0;    ///< those of them in rows asleep
+  TimeToGo to_go;                     ///< with the last row
+  double row_communication = 0.0;     ///< s, of all ranks up to the last row
+  double row_compute = 0.0;           ///< s, of this rank up to the last row
+  double row_all_compute = 0.0;       ///< s, of all ranks up to the last row
+  std::vector<std::string> warnings;  ///< of the scene and its sample, for timings.json
 };
 
 /// Line with the names of the columns.
