@@ -230,7 +230,8 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
         "of a void, and the run then stops. Set transfer.velocity = \"aflip\" for samples with "
         "voids.");
   }
-  if (scene.transfer.shape == ShapeFunction::linear) {
+  const auto is_smooth = [](const auto& shape) { return shape.smoothness > 0; };
+  if (!of_shape(scene.transfer.shape, is_smooth)) {
     warnings.push_back(
         "With transfer.shape = \"linear\" runs stop where voids collapse: hats let forces jump "
         "where particles cross cells. Set transfer.shape to \"gimp\" or \"cubic\".");

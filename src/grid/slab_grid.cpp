@@ -20,25 +20,12 @@ void set_zero(Lanes* nodes, std::ptrdiff_t count) {
 
 }  // namespace
 
-int stencil_width(ShapeFunction shape) {
-  switch (shape) {
-    case ShapeFunction::linear:
-      return 2;
-    case ShapeFunction::gimp:
-    case ShapeFunction::quadratic:
-      return 3;
-    case ShapeFunction::cubic:
-      break;
-  }
-  return 4;
-}
-
 GridShape make_grid_shape(const Scene& scene) {
   GridShape shape;
   shape.dimension = scene.dimension;
   shape.function = scene.transfer.shape;
   shape.half_length = scene.transfer.half_length;
-  shape.stencil = stencil_width(scene.transfer.shape);
+  shape.stencil = of_shape(shape.function, [](const auto& s) { return s.width; });
   shape.cell = scene.domain.cell;
   shape.periodic = scene.domain.periodic;
   // PETSc counts in PetscInt, 32 bits in Debian's default build.

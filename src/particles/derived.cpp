@@ -102,7 +102,10 @@ template double particle_temperature<3>(const Particles<3>&, const std::vector<M
                                         std::size_t);
 double affine_inertia(const Transfer& transfer, double cell) {
   if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
-  return cell * cell / (transfer.shape == ShapeFunction::cubic ? 3.0 : 4.0);
+  return of_shape(transfer.shape, [cell]<class Shape>(const Shape&) {
+    if constexpr (has_inertia<Shape>) return cell * cell / Shape::inverse_inertia;
+    return 0.0;
+  });
 }
 
 template <int Dim>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "poreshock/transfer/shape.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 
@@ -18,7 +18,7 @@ FaceTable::FaceTable(const Transfer& transfer) {
     half = 0.5 * Shape::width;
     const auto value = [&](double x) {
       const double s = 10.0 + x;  // of the particle; node 11 lies at s = 10
-      const int base = Shape::base(s);
+      const int base = stencil_base(Shape::width, s);
       const int k = 11 - base;
       return k >= 0 && k < Shape::width ? axis_weights(shape, s, base).value[k] : 0.0;
     };

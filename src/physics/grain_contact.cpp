@@ -10,21 +10,6 @@ namespace poreshock {
 
 namespace {
 
-/// Share of the shape function of a node one cell inside a plane that reaches beyond it.
-double share_beyond(const Transfer& transfer) {
-  switch (transfer.shape) {
-    case ShapeFunction::linear:
-      return 0.0;
-    case ShapeFunction::gimp:
-      return transfer.half_length * transfer.half_length / 12.0;
-    case ShapeFunction::quadratic:
-      return 1.0 / 48.0;
-    case ShapeFunction::cubic:
-      break;
-  }
-  return 1.0 / 24.0;
-}
-
 /// Share of a node's space along one axis that lies inside the domain.
 double share_inside(int index, int count, bool periodic, double beyond) {
   if (periodic) return 1.0;
@@ -96,7 +81,8 @@ void collide_node(const std::vector<ContactField>& fields, int row, int node, bo
 }  // namespace
 
 double node_capacity(const GridShape& shape, const Transfer& transfer, int row, int lateral) {
-  const double beyond = share_beyond(transfer);
+  const double beyond = with_shape(transfer.shape, transfer.half_length,
+                                   [](const auto& s) { return s.share_beyond(); });
   double space = 1.0;
   for (int a = 0; a < shape.dimension; ++a) space *= shape.cell;
   space = space * share_inside(row, shape.rows, false, beyond);

@@ -153,7 +153,9 @@ void conduct_heat(const std::vector<Material>& materials, Thermal thermal, Shape
     collect_heat<Dim, Spline>(materials, cells, dt, particles, scratch, grid);
     take_heat<Dim, Spline>(materials, cells, inverse_quantum, grid, scratch, particles, gained);
   };
-  shape == ShapeFunction::cubic ? run(CubicSpline{}) : run(QuadraticSpline{});
+  of_shape(shape, [&]<class Shape>(const Shape& spline) {
+    if constexpr (has_inertia<Shape>) run(spline);
+  });
 }
 
 double conduction_limit(const std::vector<Material>& materials, ShapeFunction shape, int dimension,
@@ -163,8 +165,10 @@ double conduction_limit(const std::vector<Material>& materials, ShapeFunction sh
     diffusivity = std::max(diffusivity, m.conductivity / (m.eos.density * m.eos.cv));
   }
   if (!(diffusivity > 0.0)) return std::numeric_limits<double>::infinity();
-  const double spread =
-      shape == ShapeFunction::cubic ? CubicSpline::stiffness : QuadraticSpline::stiffness;
+  const double spread = of_shape(shape, []<class Shape>(const Shape&) {
+    if constexpr (has_inertia<Shape>) return Shape::stiffness;
+    return 0.0;
+  });
   return cell * cell / (dimension * spread * diffusivity);
 }
 

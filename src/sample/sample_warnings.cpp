@@ -34,21 +34,6 @@ void warn_radius(const Scene& scene, const SampleReport& report,
                      " whole voids make the porosity asked for.");
 }
 
-/// Distance in cells below which surfaces feel each other through the grid, and the shape's name.
-std::pair<double, std::string> closing_distance(ShapeFunction shape) {
-  switch (shape) {
-    case ShapeFunction::linear:
-      return {1.5, "linear"};
-    case ShapeFunction::gimp:
-      return {2.0, "gimp"};
-    case ShapeFunction::quadratic:
-      return {2.5, "quadratic"};
-    case ShapeFunction::cubic:
-      break;
-  }
-  return {3.5, "cubic"};
-}
-
 void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::string>& warnings) {
   // Overlapping voids have no ligament to keep.
   if (scene.sample.overlap) return;
@@ -61,7 +46,9 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
                        length_text(3.0 * spacing) + " or more, or " +
                        finer(scene, report.least_gap / (3.0 * spacing)) + ".");
   }
-  const auto [reach, shape] = closing_distance(scene.transfer.shape);
+  const auto [reach, shape] = of_shape(scene.transfer.shape, [](const auto& s) {
+    return std::pair(s.closing_cells, std::string(s.name));
+  });
   if (report.least_gap < reach * scene.domain.cell) {
     warnings.push_back(thinnest + ", or " + short_number(report.least_gap / scene.domain.cell) +
                        " cells; below " + short_number(reach) + " cells the " + shape +

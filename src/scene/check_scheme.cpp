@@ -7,9 +7,18 @@
 namespace poreshock::scene_text {
 namespace {
 
-std::string_view name_of(ShapeFunction shape) {
-  constexpr std::string_view names[] = {"linear", "gimp", "quadratic", "cubic"};
-  return names[static_cast<std::size_t>(shape)];
+std::string name_of(ShapeFunction shape) {
+  return std::string(of_shape(shape, [](const auto& s) { return s.name; }));
+}
+
+/// Names of the shapes of which allows(shape function) is true, in words.
+template <class Allows>
+std::string shapes_with(Allows&& allows) {
+  std::vector<std::string> names;
+  for (const ShapeFunction shape : shape_functions) {
+    if (of_shape(shape, allows)) names.push_back(name_of(shape));
+  }
+  return allowed_names(names);
 }
 
 /// Combinations that cannot work, with the reason.
@@ -22,8 +31,8 @@ void check_combination(const Transfer& transfer, Report& report) {
     }
     add_problem("transfer.velocity",
                 "found \"" + std::string(scheme.name) + "\", which transfer.shape = \"" +
-                    std::string(name_of(transfer.shape)) + "\" cannot carry, allowed " +
-                    allowed_names(allowed) + " with it",
+                    name_of(transfer.shape) + "\" cannot carry, allowed " + allowed_names(allowed) +
+                    " with it",
                 report);
   }
   if (scheme.keeps == Keeps::nothing && transfer.damping > 0.0) {
@@ -49,10 +58,11 @@ void check_step(const Scene& scene, Report& report) {
 
 void check_viscosity(const Scene& scene, Report& report) {
   if (!good(report, {"viscosity.limited", "transfer.shape"}) || !scene.viscosity.limited) return;
-  if (scene.transfer.shape == ShapeFunction::cubic) return;
+  const auto sees_jumps = [](const auto& s) { return s.width > 3; };
+  if (of_shape(scene.transfer.shape, sees_jumps)) return;
   add_problem("viscosity.limited",
-              "found true, allowed with transfer.shape = \"cubic\": a particle of the others sees "
-              "no three jumps in a row",
+              "found true, allowed with transfer.shape = " + shapes_with(sees_jumps) +
+                  ": a particle of the others sees no three jumps in a row",
               report);
 }
 
@@ -67,10 +77,11 @@ void check_transfer(const Scene& scene, Report& report) {
 
 void check_conduction(const Scene& scene, Report& report) {
   if (!good(report, {"conduction", "transfer.shape"}) || !scene.conduction.on) return;
-  if (!is_hat(scene.transfer.shape)) return;
+  const auto spreads = []<class Shape>(const Shape&) { return has_inertia<Shape>; };
+  if (of_shape(scene.transfer.shape, spreads)) return;
   add_problem("conduction.on",
-              "found true, allowed with transfer.shape = \"quadratic\" or \"cubic\": the slopes of "
-              "the others jump where particles cross cells",
+              "found true, allowed with transfer.shape = " + shapes_with(spreads) +
+                  ": the spread of the others depends on the place in a cell",
               report);
 }
 

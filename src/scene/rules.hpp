@@ -91,9 +91,4 @@ bool choice(Visitor& visitor, const char* key, Enum& value, const Names<Enum>& n
   return true;
 }
 
-/// True for the hat and its average over the particle, whose slopes are not smooth across cells.
-inline bool is_hat(ShapeFunction shape) {
-  return shape == ShapeFunction::linear || shape == ShapeFunction::gimp;
-}
-
 }  // namespace poreshock::scene_text

@@ -8,10 +8,10 @@ namespace poreshock::scene_text {
 
 template <typename Visitor>
 void visit_transfer(Visitor& visitor, Transfer& transfer) {
-  const Names<ShapeFunction> shapes{{"linear", ShapeFunction::linear},
-                                    {"gimp", ShapeFunction::gimp},
-                                    {"quadratic", ShapeFunction::quadratic},
-                                    {"cubic", ShapeFunction::cubic}};
+  Names<ShapeFunction> shapes;
+  for (const ShapeFunction shape : shape_functions) {
+    shapes.emplace_back(of_shape(shape, [](const auto& s) { return s.name; }), shape);
+  }
   Names<VelocityTransfer> transfers;
   for (const TransferScheme& one : transfer_schemes) {
     transfers.emplace_back(one.name, one.velocity);
@@ -25,8 +25,9 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
   }
   choice(visitor, "shape", transfer.shape, shapes,
          {"between particles and grid: hat, uniform GIMP, quadratic or cubic B-spline"});
+  const TransferScheme& best = scheme_of(VelocityTransfer::aflip);
   visitor.fallback(transfer.velocity,
-                   is_hat(transfer.shape) ? VelocityTransfer::flip : VelocityTransfer::aflip);
+                   suits(best, transfer.shape) ? best.velocity : VelocityTransfer::flip);
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
   visitor.fallback(transfer.damping, scheme_of(transfer.velocity).damping);
   visitor.number("damping", transfer.damping,

@@ -5,10 +5,10 @@
 
 #include "poreshock/core/memory.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/core/shape.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "poreshock/particles/exchange.hpp"
 #include "poreshock/solver/sleep.hpp"
-#include "poreshock/transfer/shape.hpp"
 
 namespace poreshock {
 

@@ -9,7 +9,6 @@
 #include "poreshock/transfer/facing.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
-#include "poreshock/transfer/shape.hpp"
 #include "poreshock/transfer/sweep.hpp"
 #include "stress_report.hpp"
 

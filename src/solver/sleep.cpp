@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "poreshock/transfer/shape.hpp"
+#include "poreshock/core/shape.hpp"
 #include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {

@@ -5,11 +5,11 @@
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/scene/read_scene.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/check_state.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/simulation.hpp"
 #include "poreshock/solver/sleep.hpp"
-#include "poreshock/transfer/shape.hpp"
 #include "stress_report.hpp"
 
 namespace poreshock {
@@ -21,14 +21,11 @@ namespace {
 /// 1/D at once, so that 4/dt^2 is 2 S - 1/D. Without affine modes nothing remembers, and time.cfl
 /// bounds the step alone.
 double lone_stiffness(const Transfer& transfer) {
-  double stiffness = 0.0;
-  if (scheme_of(transfer.velocity).modes == Modes::constant) return stiffness;
-  with_shape(transfer, [&]<class Spline>(const Spline&) {
-    if constexpr (is_spline<Spline>) {
-      stiffness = 2.0 * Spline::stiffness - Spline::inverse_inertia;
-    }
+  if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
+  return of_shape(transfer.shape, []<class Shape>(const Shape&) {
+    if constexpr (has_inertia<Shape>) return 2.0 * Shape::stiffness - Shape::inverse_inertia;
+    return 0.0;
   });
-  return stiffness;
 }
 
 /// Velocity of the background grid: it rides with walls, so that they stay on a line of nodes.

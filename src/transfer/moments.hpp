@@ -59,7 +59,7 @@ inline PointWeights<Dim> point_weights(const Spline& spline, const Particles<Dim
   };
   for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
   for (int a = 0; a < Dim; ++a) {
-    w.local[a] = Spline::local(particles.position[a][p] * inverse_cell, base[a]);
+    w.local[a] = local_place<Spline>(particles.position[a][p] * inverse_cell, base[a]);
   }
   return w;
 }

@@ -7,10 +7,10 @@
 
 #include "instruction_sets/porous_sample.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/core/shape.hpp"
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/momentum.hpp"
 #include "poreshock/transfer/particles_to_grid.hpp"
-#include "poreshock/transfer/shape.hpp"
 #include "poreshock/transfer/sweep.hpp"
 
 namespace {

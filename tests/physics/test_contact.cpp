@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "poreshock/physics/contact.hpp"
-#include "poreshock/transfer/shape.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "support/random_numbers.hpp"
 
 namespace {
@@ -348,9 +348,9 @@ NodeGrain<2> slab(double low, double high, double side) {
   const CubicSpline spline;
   for (int k = 0; low + 0.5 * k < high - 1e-9; ++k) {
     const double s = 10.0 + low + 0.25 + 0.5 * k;
-    const int index = 11 - CubicSpline::base(s);
+    const int index = 11 - stencil_base(CubicSpline::width, s);
     if (index < 0 || index > 3) continue;
-    const auto w = axis_weights(spline, s, CubicSpline::base(s));
+    const auto w = axis_weights(spline, s, stencil_base(CubicSpline::width, s));
     g.volume += 0.5 * w.value[index] * side * cell * cell;
     // The slope is that of the node's weight against the particle's place.
     g.gradient[1] += 0.5 * w.slope[index] * side * cell;

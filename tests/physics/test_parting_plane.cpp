@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "poreshock/physics/parting_plane.hpp"
-#include "poreshock/transfer/shape.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "support/random_numbers.hpp"
 
 namespace {
@@ -134,9 +134,9 @@ Errors disc_errors(double radius, std::uint64_t seed) {
               double value[2], slope[2];
               for (int a = 0; a < 2; ++a) {
                 const double s = 10.0 + offset[a];  // of the particle; node 11 lies at s = 10
-                const auto weights = axis_weights(shape, s, Shape::base(s));
-                value[a] = weights.value[11 - Shape::base(s)];
-                slope[a] = weights.slope[11 - Shape::base(s)];
+                const auto weights = axis_weights(shape, s, stencil_base(Shape::width, s));
+                value[a] = weights.value[11 - stencil_base(Shape::width, s)];
+                slope[a] = weights.slope[11 - stencil_base(Shape::width, s)];
               }
               volume[side] += 0.25 * value[0] * value[1];
               gradient[side] += 0.25 * Vector<2>(slope[0] * value[1], value[0] * slope[1]);

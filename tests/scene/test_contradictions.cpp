@@ -182,7 +182,7 @@ TEST(Contradictions, SchemesThatCannotWork) {
   EXPECT_EQ(
       problems(small_scene(), {"transfer.preset=lineage", "conduction.on=true"}),
       "--set conduction.on=true: conduction.on: found true, allowed with transfer.shape = "
-      "\"quadratic\" or \"cubic\": the slopes of the others jump where particles cross cells");
+      "\"quadratic\" or \"cubic\": the spread of the others depends on the place in a cell");
 }
 
 TEST(Contradictions, Beat) {

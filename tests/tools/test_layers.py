@@ -28,10 +28,10 @@ class Layers(unittest.TestCase):
 
     def test_includes_point_down(self):
         for path, target in (("src/core/error.cpp", "scene/scene.hpp"),
-                             ("include/poreshock/grid/slab_grid.hpp", "transfer/shape.hpp"),
+                             ("include/poreshock/grid/slab_grid.hpp", "transfer/blocks.hpp"),
                              ("src/sample/fill.cpp", "output/snapshot.hpp"),
                              ("src/physics/stress.cpp", "morphology/minkowski.hpp"),
-                             ("src/output/history.cpp", "transfer/shape.hpp"),
+                             ("src/output/history.cpp", "transfer/blocks.hpp"),
                              ("src/morphology/pixel_map.cpp", "particles/particles.hpp"),
                              ("src/solver/simulation.cpp", "app/main.hpp")):
             self.assertIn(f"includes poreshock/{target}; it may include", self.one(path, f'"poreshock/{target}"'))
@@ -64,7 +64,7 @@ class Layers(unittest.TestCase):
 
     def test_allowed_includes(self):
         self.assertEqual(self.check({
-            "include/poreshock/physics/heat.hpp": '#include "poreshock/transfer/shape.hpp"\n',
+            "include/poreshock/physics/heat.hpp": '#include "poreshock/transfer/blocks.hpp"\n',
             "src/solver/ledger.hpp": '#include "poreshock/physics/heat.hpp"\n#include <mpi.h>\n',
             "src/output/hdf5_file.hpp": "#include <hdf5.h>\n", "src/app/main.cpp": "#include <CLI/CLI.hpp>\n",
             "include/poreshock/grid/partition.hpp": "", "src/grid/partition.cpp": '#include "poreshock/grid/partition.hpp"\n#include <metis.h>\n',

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/core/shape.hpp"
 #include "poreshock/grid/slab_grid.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
-#include "poreshock/transfer/shape.hpp"
 #include "poreshock/transfer/step_data.hpp"
 #include "poreshock/transfer/sweep.hpp"
 #include "support/shuffle.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "poreshock/transfer/shape.hpp"
+#include "poreshock/core/shape.hpp"
 #include "support/random_numbers.hpp"
 #include "support/scalar_transfer.hpp"
 
@@ -25,6 +25,11 @@ std::vector<double> sample_points() {
 }
 
 template <class Spline>
+int base_of(double s) {
+  return stencil_base(Spline::width, s);
+}
+
+template <class Spline>
 class Shape : public ::testing::Test {};
 using Shapes = ::testing::Types<LinearHat, UniformGimp, QuadraticSpline, CubicSpline>;
 TYPED_TEST_SUITE(Shape, Shapes);
@@ -34,16 +39,13 @@ template <class Type>
 GridShape named_shape() {
   GridShape shape;
   shape.half_length = 0.25;
-  if constexpr (std::is_same_v<Type, LinearHat>) shape.function = ShapeFunction::linear;
-  if constexpr (std::is_same_v<Type, UniformGimp>) shape.function = ShapeFunction::gimp;
-  if constexpr (std::is_same_v<Type, QuadraticSpline>) shape.function = ShapeFunction::quadratic;
-  if constexpr (std::is_same_v<Type, CubicSpline>) shape.function = ShapeFunction::cubic;
+  shape.function = Type::kind;
   return shape;
 }
 
 TYPED_TEST(Shape, SumsToOneAndPlacesTheParticle) {
   for (const double s : sample_points()) {
-    const int base = TypeParam::base(s);
+    const int base = base_of<TypeParam>(s);
     const auto w = axis_weights(TypeParam{}, s, base);
     double one = 0.0, first = 0.0, second = 0.0, place = 0.0;
     double slope = 0.0, slope_first = 0.0, slope_second = 0.0;
@@ -63,7 +65,7 @@ TYPED_TEST(Shape, SumsToOneAndPlacesTheParticle) {
     EXPECT_NEAR(place, s, 1e-15 * std::max(s, 1.0)) << s;
     EXPECT_NEAR(slope, 0.0, 1e-15) << s;
     EXPECT_NEAR(slope_first, 1.0, 1e-15) << s;
-    if constexpr (is_spline<TypeParam>) {
+    if constexpr (has_inertia<TypeParam>) {
       constexpr double inertia = TypeParam::width == 3 ? 1.0 / 4.0 : 1.0 / 3.0;
       EXPECT_EQ(1.0 / TypeParam::inverse_inertia, inertia);
       EXPECT_NEAR(second, inertia, 1e-15) << s;
@@ -73,11 +75,11 @@ TYPED_TEST(Shape, SumsToOneAndPlacesTheParticle) {
 }
 
 TYPED_TEST(Shape, StiffnessIsTheMostOfAllPlaces) {
-  if constexpr (is_spline<TypeParam>) {
+  if constexpr (has_inertia<TypeParam>) {
     double most = 0.0;
     for (int k = 0; k <= 1000; ++k) {
       const double s = 7.0 + k / 1000.0;
-      const auto w = axis_weights(TypeParam{}, s, TypeParam::base(s));
+      const auto w = axis_weights(TypeParam{}, s, base_of<TypeParam>(s));
       double sum = 0.0;
       for (int i = 0; i < TypeParam::width; ++i) {
         if (w.value[i] > 0.0) sum += w.slope[i] * w.slope[i] / w.value[i];
@@ -92,7 +94,7 @@ TYPED_TEST(Shape, StiffnessIsTheMostOfAllPlaces) {
 TYPED_TEST(Shape, IsThatOfTheTextbook) {
   const GridShape shape = named_shape<TypeParam>();
   for (const double s : sample_points()) {
-    const int base = TypeParam::base(s);
+    const int base = base_of<TypeParam>(s);
     const auto w = axis_weights(TypeParam{}, s, base);
     for (int i = 0; i < TypeParam::width; ++i) {
       const double r = s - (base + i - 1);
@@ -108,7 +110,7 @@ TYPED_TEST(Shape, SlopeIsTheDerivativeOfTheValue) {
   for (int k = 0; k < 1000; ++k) {
     // Away from the joints, where the third derivative jumps.
     const double s = random.below(12) + 0.5 * random.below(2) + 0.001 + 0.248 * random.uniform();
-    const int base = TypeParam::base(s);
+    const int base = base_of<TypeParam>(s);
     const auto low = axis_weights(TypeParam{}, s - h, base);
     const auto middle = axis_weights(TypeParam{}, s, base);
     const auto high = axis_weights(TypeParam{}, s + h, base);
@@ -120,17 +122,17 @@ TYPED_TEST(Shape, SlopeIsTheDerivativeOfTheValue) {
 
 TYPED_TEST(Shape, IsContinuousWhereTheStencilChanges) {
   for (int cell = 1; cell < 11; ++cell) {
-    const double s = TypeParam::width == 3 ? cell + 0.5 : cell;
-    const int base = TypeParam::base(s);
+    const double s = TypeParam::width % 2 == 0 ? cell : cell + 0.5;
+    const int base = base_of<TypeParam>(s);
     const double before = std::nextafter(s, 0.0);
-    ASSERT_EQ(TypeParam::base(before), base - 1);
+    ASSERT_EQ(base_of<TypeParam>(before), base - 1);
     const auto here = axis_weights(TypeParam{}, s, base);
     const auto there = axis_weights(TypeParam{}, before, base - 1);
     EXPECT_NEAR(there.value[0], 0.0, 2e-15);
     EXPECT_NEAR(here.value[TypeParam::width - 1], 0.0, 1e-15);
     for (int i = 0; i + 1 < TypeParam::width; ++i) {
       EXPECT_NEAR(here.value[i], there.value[i + 1], 2e-15);
-      if (TypeParam::width > 2) {  // a hat's slope jumps there
+      if (TypeParam::smoothness > 0) {
         EXPECT_NEAR(here.slope[i], there.slope[i + 1], 4e-15);
       }
     }
@@ -138,35 +140,70 @@ TYPED_TEST(Shape, IsContinuousWhereTheStencilChanges) {
 }
 
 TEST(StencilCell, OfTheQuadraticSplineChangesAtHalfCells) {
-  EXPECT_EQ(QuadraticSpline::base(0.0), 0);
-  EXPECT_EQ(QuadraticSpline::base(std::nextafter(0.5, 0.0)), 0);
-  EXPECT_EQ(QuadraticSpline::base(0.5), 1);
-  EXPECT_EQ(QuadraticSpline::base(1.0), 1);
-  EXPECT_EQ(QuadraticSpline::base(std::nextafter(1.5, 0.0)), 1);
-  EXPECT_EQ(QuadraticSpline::base(1.5), 2);
-  EXPECT_EQ(QuadraticSpline::base(1000.5), 1001);
-  EXPECT_EQ(QuadraticSpline::base(std::nextafter(1000.5, 0.0)), 1000);
+  EXPECT_EQ(base_of<QuadraticSpline>(0.0), 0);
+  EXPECT_EQ(base_of<QuadraticSpline>(std::nextafter(0.5, 0.0)), 0);
+  EXPECT_EQ(base_of<QuadraticSpline>(0.5), 1);
+  EXPECT_EQ(base_of<QuadraticSpline>(1.0), 1);
+  EXPECT_EQ(base_of<QuadraticSpline>(std::nextafter(1.5, 0.0)), 1);
+  EXPECT_EQ(base_of<QuadraticSpline>(1.5), 2);
+  EXPECT_EQ(base_of<QuadraticSpline>(1000.5), 1001);
+  EXPECT_EQ(base_of<QuadraticSpline>(std::nextafter(1000.5, 0.0)), 1000);
 }
 
 TEST(StencilCell, OfTheHatChangesAtWholeCells) {
-  EXPECT_EQ(LinearHat::base(0.0), 1);
-  EXPECT_EQ(LinearHat::base(std::nextafter(1.0, 0.0)), 1);
-  EXPECT_EQ(LinearHat::base(1.0), 2);
+  EXPECT_EQ(base_of<LinearHat>(0.0), 1);
+  EXPECT_EQ(base_of<LinearHat>(std::nextafter(1.0, 0.0)), 1);
+  EXPECT_EQ(base_of<LinearHat>(1.0), 2);
 }
 
 TEST(StencilCell, OfTheCubicSplineChangesAtWholeCells) {
-  EXPECT_EQ(CubicSpline::base(0.0), 0);
-  EXPECT_EQ(CubicSpline::base(std::nextafter(1.0, 0.0)), 0);
-  EXPECT_EQ(CubicSpline::base(1.0), 1);
-  EXPECT_EQ(CubicSpline::base(1.5), 1);
-  EXPECT_EQ(CubicSpline::base(1000.0), 1000);
-  EXPECT_EQ(CubicSpline::base(std::nextafter(1000.0, 0.0)), 999);
+  EXPECT_EQ(base_of<CubicSpline>(0.0), 0);
+  EXPECT_EQ(base_of<CubicSpline>(std::nextafter(1.0, 0.0)), 0);
+  EXPECT_EQ(base_of<CubicSpline>(1.0), 1);
+  EXPECT_EQ(base_of<CubicSpline>(1.5), 1);
+  EXPECT_EQ(base_of<CubicSpline>(1000.0), 1000);
+  EXPECT_EQ(base_of<CubicSpline>(std::nextafter(1000.0, 0.0)), 999);
+}
+
+TYPED_TEST(Shape, TellsWhichMomentsAreConstant) {
+  const auto moment = [](double s, int order) {
+    const int base = base_of<TypeParam>(s);
+    const auto w = axis_weights(TypeParam{}, s, base);
+    double sum = 0.0;
+    for (int i = 0; i < TypeParam::width; ++i) sum += w.value[i] * std::pow(w.offset[i], order);
+    return sum;
+  };
+  for (int order = 0; order <= TypeParam::constant_moments + 1; ++order) {
+    double change = 0.0;
+    for (const double s : sample_points()) {
+      change = std::max(change, std::abs(moment(s, order) - moment(5.0, order)));
+    }
+    if (order <= TypeParam::constant_moments) {
+      EXPECT_LE(change, 2e-15) << order;
+    } else {
+      EXPECT_GE(change, 0.02) << order;
+    }
+  }
+}
+
+// The function of a node one cell inside a plane, summed beyond the plane.
+TYPED_TEST(Shape, TellsWhatLiesBeyondAPlane) {
+  constexpr int steps = 4000;
+  double beyond = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    const double s = 9.0 - (k + 0.5) / steps;  // node 11 lies at 10, the plane at 9
+    const int base = base_of<TypeParam>(s);
+    const int node = 11 - base;
+    if (node >= TypeParam::width) continue;
+    beyond += axis_weights(TypeParam{}, s, base).value[static_cast<std::size_t>(node)] / steps;
+  }
+  EXPECT_NEAR(TypeParam{}.share_beyond(), beyond, 1e-7);
 }
 
 TYPED_TEST(Shape, StencilStaysOnTheGridInTheWholeDomain) {
   constexpr int cells = 12, nodes = cells + 3;
   for (const double s : sample_points()) {
-    const int base = TypeParam::base(s);
+    const int base = base_of<TypeParam>(s);
     EXPECT_GE(base, 0) << s;
     EXPECT_LE(base + TypeParam::width, nodes) << s;
   }

@@ -32,9 +32,6 @@ struct GridShape {
   int rows = 0;                       ///< node rows along the shock axis
 };
 
-/// Nodes per axis of a stencil: 2 linear, 3 GIMP and quadratic, 4 cubic.
-int stencil_width(ShapeFunction shape);
-
 GridShape make_grid_shape(const Scene& scene);
 
 /// Least rows per slab for this stencil (seam depth, and mirror nodes at the walls).

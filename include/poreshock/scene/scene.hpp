@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "poreshock/core/shape.hpp"
 #include "poreshock/material/material.hpp"
 
 namespace poreshock {
@@ -21,7 +22,6 @@ enum class Islands { removed, grains };  ///< what becomes of floating pieces
 enum class GapTest { volume, none };
 enum class ContactNormal { gradients, regression };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
-enum class ShapeFunction { linear, gimp, quadratic, cubic };
 enum class VelocityTransfer { pic, flip, apic, aflip, iapic, polypic, polyflip, ipolypic };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class MapLattice { eulerian, lagrangian };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "poreshock/scene/scene.hpp"
 
@@ -61,14 +62,37 @@ constexpr const TransferScheme& scheme_of(VelocityTransfer velocity) {
   return transfer_schemes.front();
 }
 
-/// True for the shapes a scheme is made for: modes beyond the velocity need the constant moments of
-/// B-splines, those of second order the third moments of cubic ones; hats are stable with FLIP
-/// only.
+/// True for the shapes a scheme is made for: modes beyond the velocity need constant moments, those
+/// of second order the third ones; shapes without are stable with FLIP only.
 constexpr bool suits(const TransferScheme& scheme, ShapeFunction shape) {
-  const bool cubic = shape == ShapeFunction::cubic;
-  const bool spline = cubic || shape == ShapeFunction::quadratic;
-  if (scheme.modes == Modes::quadratic) return cubic;
-  return spline || (scheme.modes == Modes::constant && scheme.keeps == Keeps::all);
+  const int moments = of_shape(shape, [](const auto& s) { return s.constant_moments; });
+  if (scheme.modes == Modes::quadratic) return moments >= 3;
+  return moments >= 2 || (scheme.modes == Modes::constant && scheme.keeps == Keeps::all);
+}
+
+/// Calls run(shape function) with the one the scene asks for.
+template <class Run>
+inline void with_shape(const Transfer& transfer, Run&& run) {
+  with_shape(transfer.shape, transfer.half_length, run);
+}
+
+/// Calls run<modes, keeps>(shape function) for the transfer and the shape that the scene asks for.
+template <class Run>
+inline void with_scheme(const Transfer& transfer, Run&& run) {
+  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
+    const auto try_one = [&]<std::size_t I>() {
+      constexpr const TransferScheme& scheme = transfer_schemes[I];
+      if constexpr (suits(scheme, Spline::kind)) {
+        if (scheme.velocity == transfer.velocity) {
+          run.template operator()<scheme.modes, scheme.keeps>(spline);
+        }
+      }
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (try_one.template operator()<I>(), ...);
+    }
+    (std::make_index_sequence<transfer_schemes.size()>{});
+  });
 }
 
 }  // namespace poreshock

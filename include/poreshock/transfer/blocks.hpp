@@ -54,7 +54,7 @@ inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
   for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
   if constexpr (Parts == WeightParts::modes) {
     const auto local = [&](int a) {
-      return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
+      return local_place<Spline>(particles.position[a][p] * inverse_cell, base[a]);
     };
     inverse_norms(local(0), local(1), w.inverse_norm.data());
     if constexpr (Dim == 3) inverse_norms(local(2), local(2), w.inverse_norm.data() + 2);

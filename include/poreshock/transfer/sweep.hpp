@@ -7,7 +7,7 @@
 #include "poreshock/grid/slab_grid.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
-#include "poreshock/transfer/shape.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 
@@ -73,7 +73,7 @@ inline void for_each_axis_pair(const Spline& spline, const Particles<Dim>& parti
                                std::uint32_t p, const std::array<int, Dim>& base,
                                double inverse_cell, Store&& store) {
   const auto local = [&](int a) {
-    return Spline::local(particles.position[a][p] * inverse_cell, base[a]);
+    return local_place<Spline>(particles.position[a][p] * inverse_cell, base[a]);
   };
   store(weights_of_two(spline, local(0), local(1)), 0);
   if constexpr (Dim == 3) store(weights_of_two(spline, local(2), local(2)), lane_count);

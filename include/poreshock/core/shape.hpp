@@ -1,20 +1,20 @@
 #pragma once
 // Shape functions on a uniform grid, and the one definition of a particle's stencil cell. s is a
 // coordinate in cells from the domain's low side; node index i lies at s = i - 1. A shape function
-// is a struct with its width, the lowest node of a stencil (which also names the stencil cell), the
-// coordinate within the stencil cell and the weights of one axis. Weights come times `scale`, a
-// whole number, so that their sum is exact: unscaled() takes the power of it out again.
+// is a struct that tells all there is to know about one: its names, the nodes of an axis that it
+// reaches, its moments, what of it lies beyond a wall, and its weights. Weights come times `scale`,
+// a whole number, so that their sum is exact: unscaled() takes the power of it out again.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
-#include <utility>
+#include <string_view>
 
 #include "poreshock/core/lanes.hpp"
-#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
+
+enum class ShapeFunction { linear, gimp, quadratic, cubic };
 
 /// Weights of one axis, a node a lane: `scale` times value and slope per cell, and offset from the
 /// particle in cells. Lanes that stand for no node of the stencil have value and slope 0.
@@ -42,7 +42,7 @@ inline AxisLanes spline_lanes(const Lanes& f) {
   constexpr Lanes constant = by_node([](int n) { return node[n].constant; });
   constexpr Lanes square = by_node([](int n) { return node[n].square; });
   constexpr Lanes cube = by_node([](int n) { return node[n].cube; });
-  constexpr Lanes place = by_node([](int n) { return n - Spline::lowest; });
+  constexpr Lanes place = by_node([](int n) { return static_cast<double>(n - Spline::lowest); });
   const Lanes u = fused(sign, f, origin);
   return {fused(u * u, fused(cube, u, square), constant),
           u * fused((3.0 * sign) * cube, u, (2.0 * sign) * square), place - f};
@@ -58,29 +58,37 @@ inline AxisLanes hat_lanes(const std::array<double, Width>& value,
   return {of(value), of(slope), by_node([&](int n) { return n - f; })};
 }
 
-/// Hat function: 2 nodes.
+/// Hat function.
 struct LinearHat {
   static constexpr ShapeFunction kind = ShapeFunction::linear;
-  static constexpr int width = 2;
+  static constexpr std::string_view name = "linear";
+  static constexpr int width = 2;   ///< nodes of an axis that it reaches, 4 at most
+  static constexpr int lowest = 0;  ///< place of the lowest of them where f is 0
   static constexpr double scale = 1.0;
+  static constexpr int smoothness = 0;  ///< derivatives that are continuous
+  /// Order up to which the moments sum N (x_i - x)^k are the same everywhere in a cell.
+  static constexpr int constant_moments = 1;
+  static constexpr double closing_cells = 1.5;  ///< surfaces nearer to each other feel each other
 
-  static int base(double s) { return static_cast<int>(std::floor(s)) + 1; }
-  static double local(double s, int base) { return s - static_cast<double>(base - 1); }  // 0 ... 1
-
+  /// Share of the shape function of a node one cell inside a plane that reaches beyond it.
+  double share_beyond() const { return 0.0; }
   AxisLanes lanes(double f) const { return hat_lanes<2>({1.0 - f, f}, {-1.0, 1.0}, f); }
 };
 
 /// Uniform GIMP: the hat averaged over the particle's edge at the start (Bardenhagen & Kober, CMES
-/// 5 (2004) 477), 3 nodes.
+/// 5 (2004) 477).
 struct UniformGimp {
   static constexpr ShapeFunction kind = ShapeFunction::gimp;
+  static constexpr std::string_view name = "gimp";
   static constexpr int width = 3;
+  static constexpr int lowest = 0;
   static constexpr double scale = 1.0;
+  static constexpr int smoothness = 1;
+  static constexpr int constant_moments = 1;
+  static constexpr double closing_cells = 2.0;
   double half_length = 0.25;  ///< cells, at most 1/2
 
-  static int base(double s) { return static_cast<int>(std::floor(s - 0.5)) + 1; }
-  static double local(double s, int base) { return s - static_cast<double>(base - 1); }
-
+  double share_beyond() const { return half_length * half_length / 12.0; }
   AxisLanes lanes(double f) const {
     const double l = half_length;
     const double b = f - 1.0;  // from the middle node, -0.5 ... 0.5
@@ -100,46 +108,77 @@ struct UniformGimp {
   }
 };
 
-/// Quadratic B-spline: 3 nodes, sum of N (x_i - x)^2 = cell^2 / 4.
+/// Quadratic B-spline.
 struct QuadraticSpline {
   static constexpr ShapeFunction kind = ShapeFunction::quadratic;
+  static constexpr std::string_view name = "quadratic";
   static constexpr int width = 3;
+  static constexpr int lowest = 0;
   static constexpr double scale = 2.0;
-  static constexpr double inverse_inertia = 4.0;
+  static constexpr int smoothness = 1;
+  static constexpr int constant_moments = 2;
+  static constexpr double inverse_inertia = 4.0;  ///< cell^2 / sum of N (x_i - x)^2
   static constexpr double stiffness = 6.0;  ///< most that the nodes' slope^2 / weight add up to
+  static constexpr double closing_cells = 2.5;
   static constexpr std::array<WeightPolynomial, 4> polynomial = {
       {{1.5, -1.0, 0.0, 1.0, 0.0}, {-1.0, 1.0, 1.5, -2.0, 0.0}, {-0.5, 1.0, 0.0, 1.0, 0.0}, {}}};
 
-  static int base(double s) { return static_cast<int>(std::floor(s - 0.5)) + 1; }
-  static double local(double s, int base) { return s - static_cast<double>(base - 1); }  // .5...1.5
-  static constexpr double lowest = 0.0;  ///< place of the base node, where f is 0
-
+  double share_beyond() const { return 1.0 / 48.0; }
   AxisLanes lanes(double f) const { return spline_lanes<QuadraticSpline>(f - Lanes{}); }
 };
 
-/// Cubic B-spline: 4 nodes, sum of N (x_i - x)^2 = cell^2 / 3.
+/// Cubic B-spline.
 struct CubicSpline {
   static constexpr ShapeFunction kind = ShapeFunction::cubic;
+  static constexpr std::string_view name = "cubic";
   static constexpr int width = 4;
+  static constexpr int lowest = 1;
   static constexpr double scale = 6.0;
+  static constexpr int smoothness = 2;
+  static constexpr int constant_moments = 3;
   static constexpr double inverse_inertia = 3.0;
-  static constexpr double stiffness = 3.14;  ///< most that the nodes' slope^2 / weight add up to
+  static constexpr double stiffness = 3.14;
+  static constexpr double closing_cells = 3.5;
   static constexpr std::array<WeightPolynomial, 4> polynomial = {{{1.0, -1.0, 0.0, 0.0, 1.0},
                                                                   {0.0, 1.0, 4.0, -6.0, 3.0},
                                                                   {1.0, -1.0, 4.0, -6.0, 3.0},
                                                                   {0.0, 1.0, 0.0, 0.0, 1.0}}};
 
-  static int base(double s) { return static_cast<int>(std::floor(s)); }
-  static double local(double s, int base) { return s - static_cast<double>(base); }  // 0 ... 1
-  static constexpr double lowest = 1.0;  ///< the base node lies one cell below f = 0
-
+  double share_beyond() const { return 1.0 / 24.0; }
   AxisLanes lanes(double f) const { return spline_lanes<CubicSpline>(f - Lanes{}); }
 };
 
-/// B-splines: the shapes that APIC and PIC are made for.
+/// All of them, in the order of their names in a message.
+inline constexpr std::array shape_functions = {LinearHat::kind, UniformGimp::kind,
+                                               QuadraticSpline::kind, CubicSpline::kind};
+
+/// Returns run(shape function) with the one of this kind: the run-time choice becomes a type.
+/// @param half_length cells, half the edge of a particle; for GIMP
+template <class Run>
+constexpr decltype(auto) with_shape(ShapeFunction kind, double half_length, Run&& run) {
+  switch (kind) {
+    case ShapeFunction::linear:
+      return run(LinearHat{});
+    case ShapeFunction::gimp:
+      return run(UniformGimp{half_length});
+    case ShapeFunction::quadratic:
+      return run(QuadraticSpline{});
+    case ShapeFunction::cubic:
+      break;
+  }
+  return run(CubicSpline{});
+}
+
+/// Returns get(shape function) of one whose particles' edge does not matter.
+template <class Get>
+constexpr auto of_shape(ShapeFunction kind, Get&& get) {
+  return with_shape(kind, 0.0, get);
+}
+
+/// True for shapes whose second moment is constant, which B-splines have: the inertia of affine
+/// motion and the spread of heat are then one number.
 template <class Shape>
-inline constexpr bool is_spline =
-    std::is_same_v<Shape, QuadraticSpline> || std::is_same_v<Shape, CubicSpline>;
+inline constexpr bool has_inertia = Shape::constant_moments >= 2;
 
 /// scale^axes of a shape function.
 template <int Axes, class Spline>
@@ -177,10 +216,27 @@ struct AxisWeights {
   std::array<double, Width> value, slope, offset;
 };
 
+/// Lowest node of the stencil of `width` nodes at s; it names the stencil cell.
+inline int stencil_base(int width, double s) {
+  return static_cast<int>(std::floor(s - (width % 2 == 0 ? 0.0 : 0.5))) + 2 - width / 2;
+}
+
+/// The same on an axis of `nodes` nodes: a coordinate that rounds to the far end of the domain
+/// belongs to the last cell.
+inline int stencil_base(int width, double s, int nodes) {
+  return std::min(stencil_base(width, s), nodes - width);
+}
+
+/// f, the coordinate in the stencil cell of this base: 0 ... 1, or 1/2 ... 3/2 for odd widths.
+template <class Shape>
+inline double local_place(double s, int base) {
+  return s - static_cast<double>(base - 1 + Shape::lowest);
+}
+
 /// Weights of the stencil with this base at s.
 template <class Spline>
 inline AxisWeights<Spline::width> axis_weights(const Spline& spline, double s, int base) {
-  const AxisLanes lanes = spline.lanes(Spline::local(s, base));
+  const AxisLanes lanes = spline.lanes(local_place<Spline>(s, base));
   AxisWeights<Spline::width> w;
   for (int n = 0; n < Spline::width; ++n) {
     w.value[n] = unscaled<1, Spline>(lanes.value[n]);
@@ -200,50 +256,11 @@ inline AxisLanes weights_of_two(const Spline& spline, double f, double g) {
 
 /// Splines take both axes at once.
 template <class Spline>
-requires is_spline<Spline>
+requires requires {
+  Spline::polynomial;
+}
 inline AxisLanes weights_of_two(const Spline&, double f, double g) {
   return spline_lanes<Spline>(join(f - HalfLanes{}, g - HalfLanes{}));
-}
-
-/// Calls run(shape function) with the one the scene asks for: the run-time choice becomes a type.
-template <class Run>
-inline void with_shape(const Transfer& transfer, Run&& run) {
-  switch (transfer.shape) {
-    case ShapeFunction::linear:
-      return run(LinearHat{});
-    case ShapeFunction::gimp:
-      return run(UniformGimp{transfer.half_length});
-    case ShapeFunction::quadratic:
-      return run(QuadraticSpline{});
-    case ShapeFunction::cubic:
-      return run(CubicSpline{});
-  }
-}
-
-/// Calls run<modes, keeps>(shape function) for the transfer and the shape that the scene asks for.
-template <class Run>
-inline void with_scheme(const Transfer& transfer, Run&& run) {
-  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
-    const auto try_one = [&]<std::size_t I>() {
-      constexpr const TransferScheme& scheme = transfer_schemes[I];
-      if constexpr (suits(scheme, Spline::kind)) {
-        if (scheme.velocity == transfer.velocity) {
-          run.template operator()<scheme.modes, scheme.keeps>(spline);
-        }
-      }
-    };
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (try_one.template operator()<I>(), ...);
-    }
-    (std::make_index_sequence<transfer_schemes.size()>{});
-  });
-}
-
-/// Lowest node of the stencil at s along an axis of `nodes` nodes, for a stencil of `width` nodes.
-/// A coordinate that rounds to the far end of the domain belongs to the last cell.
-inline int stencil_base(int width, double s, int nodes) {
-  if (width == 3) return QuadraticSpline::base(s);
-  return std::min(width == 4 ? CubicSpline::base(s) : LinearHat::base(s), nodes - width);
 }
 
 }  // namespace poreshock
