@@ -16,21 +16,17 @@ struct AxisPlace {
   Place place = Place::inside;
   int image = 0;   ///< index of the mirror image
   int inward = 0;  ///< +1 at the low plane, -1 at the high one
-  SideKind kind = SideKind::free;
+  bool holds = false;
 };
 
-bool mirrors(SideKind kind) {
-  return kind == SideKind::wall || kind == SideKind::symmetry;
-}
-
 /// The planes lie at node 1 and node count - 2; one row of nodes beyond each is in use.
-AxisPlace axis_place(int index, int count, SideKind low, SideKind high) {
-  if (mirrors(low) && index <= 2) {
-    return {index == 1 ? Place::on_plane : Place::mirrored, 2 - index, 1, low};
+AxisPlace axis_place(int index, int count, const SideLaw& low, const SideLaw& high) {
+  if (low.mirrors && index <= 2) {
+    return {index == 1 ? Place::on_plane : Place::mirrored, 2 - index, 1, low.holds};
   }
-  if (mirrors(high) && index >= count - 3) {
+  if (high.mirrors && index >= count - 3) {
     return {index == count - 2 ? Place::on_plane : Place::mirrored, 2 * (count - 2) - index, -1,
-            high};
+            high.holds};
   }
   return {};
 }
@@ -178,7 +174,7 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
   std::array<double, Dim> velocity = symmetric_velocity<Dim>(set, plane, mass);
   if (!(mass > 0.0)) return;
   for (int a = Dim - 1; a >= 0; --a) {
-    if (!active[a] || place[a].kind != SideKind::wall) continue;
+    if (!active[a] || place[a].holds) continue;
     if (inward_impulse<Dim>(set, velocity, plane, a) >= 0.0) continue;
     std::array<bool, Dim> rest = active;
     rest[a] = false;
@@ -195,7 +191,7 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
   }
   constexpr int shock = Dim - 1;
   std::array<double, Dim> rubbed{};
-  if (friction > 0.0 && active[shock] && place[shock].kind == SideKind::wall) {
+  if (friction > 0.0 && active[shock]) {
     const double push = inward_impulse<Dim>(set, velocity, plane, shock);
     rubbed = rub<Dim>(friction, push, mass, velocity);
   }
@@ -205,21 +201,28 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
 }  // namespace
 
 bool is_mirrored(const Boundary& boundary, const GridShape& shape, int row, int lateral) {
-  const auto on_axis = [](int index, int count, SideKind low, SideKind high) {
-    return axis_place(index, count, low, high).place != Place::inside;
+  const auto on_axis = [&](int axis, int index) {
+    const SideLaw& low = side_law(side_at(boundary, axis, false, shape.dimension).kind);
+    const SideLaw& high = side_law(side_at(boundary, axis, true, shape.dimension).kind);
+    return axis_place(index, shape.nodes[axis], low, high).place != Place::inside;
   };
   const int x = lateral % shape.nodes[0], y = lateral / shape.nodes[0];
-  return on_axis(row, shape.rows, boundary.low.kind, boundary.high.kind) ||
-         on_axis(x, shape.nodes[0], boundary.lateral[0], boundary.lateral[0]) ||
-         (shape.dimension == 3 &&
-          on_axis(y, shape.nodes[1], boundary.lateral[1], boundary.lateral[1]));
+  return on_axis(shape.dimension - 1, row) || on_axis(0, x) ||
+         (shape.dimension == 3 && on_axis(1, y));
 }
 
 template <int Dim>
 void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity, SlabGrid& grid,
                       NodeLedger& ledger) {
   const GridShape& shape = grid.shape();
-  const bool sides = mirrors(boundary.lateral[0]) || (Dim == 3 && mirrors(boundary.lateral[1]));
+  bool sides = false;
+  std::array<std::array<SideLaw, 2>, Dim> law;
+  for (int a = 0; a < Dim; ++a) {
+    for (const bool high : {false, true}) {
+      law[a][high] = side_law(side_at(boundary, a, high, Dim).kind);
+      sides = sides || (a + 1 < Dim && law[a][high].mirrors);
+    }
+  }
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     if (!sides && row > 2 && row < shape.rows - 3) continue;
     for (int lateral = 0; lateral < shape.row_size; ++lateral) {
@@ -231,10 +234,7 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
       std::array<bool, Dim> active{};
       bool any = false, original = true;
       for (int a = 0; a < Dim; ++a) {
-        const bool shock_axis = a == Dim - 1;
-        const SideKind low = shock_axis ? boundary.low.kind : boundary.lateral[a];
-        const SideKind high = shock_axis ? boundary.high.kind : boundary.lateral[a];
-        place[a] = axis_place(index[a], shape.nodes[a], low, high);
+        place[a] = axis_place(index[a], shape.nodes[a], law[a][0], law[a][1]);
         active[a] = place[a].place != Place::inside;
         any = any || active[a];
         // Each set is handled once, from its member inside the domain.

@@ -39,10 +39,6 @@ std::vector<Flying> flying_boxes(const Scene& scene, const SampleReport& report)
   return boxes;
 }
 
-bool stops(SideKind kind) {
-  return kind == SideKind::wall || kind == SideKind::symmetry;
-}
-
 /// Time until a gap (m) closes at a speed (m/s).
 double closing(double gap, double speed) {
   return speed > 0.0 ? std::max(gap, 0.0) / speed : never;
@@ -52,13 +48,14 @@ double hits_side(const Scene& scene, const Flying& f) {
   double first = never;
   for (int axis = 0; axis < scene.dimension; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const bool lateral = axis + 1 < scene.dimension;
-    const Side side = lateral ? Side{scene.boundary.lateral[a]} : scene.boundary.low;
-    const Side top = lateral ? side : scene.boundary.high;
+    const Side low = side_at(scene.boundary, axis, false, scene.dimension);
+    const Side high = side_at(scene.boundary, axis, true, scene.dimension);
     const double own = f.velocity[a] - scene.loading.frame[a];
-    if (stops(side.kind)) first = std::min(first, closing(f.box.low[a], side.velocity - own));
-    if (stops(top.kind)) {
-      first = std::min(first, closing(scene.domain.size[a] - f.box.high[a], own - top.velocity));
+    if (side_law(low.kind).mirrors) {
+      first = std::min(first, closing(f.box.low[a], low.velocity - own));
+    }
+    if (side_law(high.kind).mirrors) {
+      first = std::min(first, closing(scene.domain.size[a] - f.box.high[a], own - high.velocity));
     }
   }
   return first;

@@ -180,11 +180,11 @@ void divide_sums(const std::vector<Int128>& sums, const Quanta& per, double row_
   }
 }
 
-/// Front of the shock that the wall or symmetry plane at the low side drives into material that
+/// Front of the shock that the plane at the low side drives into material that
 /// comes with the velocity of the loading.
 Front wall_front(const Scene& scene, const Profile& profile) {
   const Side& low = scene.boundary.low;
-  if (low.kind != SideKind::wall && low.kind != SideKind::symmetry) return {no_value, no_value};
+  if (!side_law(low.kind).mirrors) return {no_value, no_value};
   const auto axis = static_cast<std::size_t>(scene.dimension - 1);
   const double frame = scene.loading.frame[axis];
   return find_front(profile.height, profile.velocity[axis], frame - scene.loading.velocity,

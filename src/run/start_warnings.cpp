@@ -24,8 +24,7 @@ std::string short_number(double value) {
 
 template <int Dim>
 bool is_open(const Scene& scene, int axis, bool high) {
-  if (axis + 1 < Dim) return scene.boundary.lateral[axis] == SideKind::free;
-  return (high ? scene.boundary.high : scene.boundary.low).kind == SideKind::free;
+  return side_law(side_at(scene.boundary, axis, high, Dim).kind).lets_out;
 }
 
 std::string side_name(int axis, bool high, int dimension) {

@@ -61,7 +61,7 @@ void check_domain(const Scene& scene, Report& report) {
 }
 
 void check_side(const Side& side, const std::string& path, Report& report) {
-  if (side.kind == SideKind::wall) return;
+  if (side_law(side.kind).drives) return;
   if (side.velocity != 0.0) {
     add_problem(path + ".velocity",
                 "found " + plain_number(side.velocity) + " m/s, allowed only with kind = \"wall\"",
@@ -86,11 +86,11 @@ void check_boundary(const Scene& scene, Report& report) {
   if (!low_moves && !high_moves) return;
   const Side& moving = low_moves ? low : high;
   const Side& other = low_moves ? high : low;
-  if (other.kind == SideKind::free) return;
-  if (other.kind == SideKind::wall && other.velocity == moving.velocity) return;
-  const std::string found = other.kind == SideKind::symmetry
-                                ? std::string("a symmetry plane")
-                                : "a wall at " + plain_number(other.velocity) + " m/s";
+  if (!side_law(other.kind).mirrors) return;
+  if (side_law(other.kind).drives && other.velocity == moving.velocity) return;
+  const std::string found = side_law(other.kind).drives
+                                ? "a wall at " + plain_number(other.velocity) + " m/s"
+                                : "a symmetry plane";
   add_problem(low_moves ? "boundary.high" : "boundary.low",
               "found " + found + " opposite to a moving wall, allowed \"free\" or a wall at " +
                   plain_number(moving.velocity) + " m/s too",

@@ -47,6 +47,15 @@ struct Rule {
 template <typename Enum>
 using Names = std::vector<std::pair<std::string, Enum>>;
 
+/// The sides that a scene may choose; periodic ones follow from the domain.
+inline Names<SideKind> names_of_sides() {
+  Names<SideKind> names;
+  for (const SideLaw& law : side_laws) {
+    if (!law.wraps) names.emplace_back(law.name, law.kind);
+  }
+  return names;
+}
+
 /// True when the number is finite and inside the range.
 bool in_range(const Range& range, double number);
 
@@ -55,6 +64,14 @@ std::string allowed_numbers(const std::string& noun, const NumberRule& rule);
 
 /// The allowed names in words, for example "\"disc\", \"box\" or \"ring\"".
 std::string allowed_names(const std::vector<std::string>& names);
+
+/// All names of an enumeration.
+template <typename Enum>
+std::vector<std::string> texts_of(const Names<Enum>& names) {
+  std::vector<std::string> texts;
+  for (const auto& [text, meaning] : names) texts.push_back(text);
+  return texts;
+}
 
 /// A number in prose, with at most 12 digits: 4 rather than 4.0.
 std::string plain_number(double number);
@@ -78,13 +95,11 @@ void integer(Visitor& visitor, const char* key, Integer& value, NumberRule rule)
 template <typename Visitor, typename Enum>
 bool choice(Visitor& visitor, const char* key, Enum& value, const Names<Enum>& names,
             const Rule& rule) {
-  std::vector<std::string> allowed;
   std::string name;
   for (const auto& [text, meaning] : names) {
-    allowed.push_back(text);
     if (meaning == value) name = text;
   }
-  if (!visitor.name(key, name, allowed, rule)) return false;
+  if (!visitor.name(key, name, texts_of(names), rule)) return false;
   for (const auto& [text, meaning] : names) {
     if (text == name) value = meaning;
   }

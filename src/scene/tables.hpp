@@ -27,9 +27,8 @@ void visit_domain(Visitor& visitor, Scene& scene) {
 
 template <typename Visitor>
 void visit_side(Visitor& visitor, Side& side) {
-  const Names<SideKind> kinds{
-      {"wall", SideKind::wall}, {"free", SideKind::free}, {"symmetry", SideKind::symmetry}};
-  choice(visitor, "kind", side.kind, kinds, {"a wall only pushes, a symmetry plane also holds"});
+  choice(visitor, "kind", side.kind, names_of_sides(),
+         {"a wall only pushes, a symmetry plane also holds"});
   visitor.number("velocity", side.velocity, {any_number, "m/s", "of a wall, upwards"});
   visitor.number("friction", side.friction, {not_negative, "", "of a wall, Coulomb"});
 }
@@ -43,7 +42,7 @@ void visit_boundary(Visitor& visitor, Scene& scene) {
   visitor.table_or_text("high", "kind", {"top of the domain, likewise"},
                         [&](auto& inner) { visit_side(inner, boundary.high); });
   visitor.sides("lateral", boundary.lateral, scene.domain.periodic, scene.dimension - 1,
-                {"both sides of a lateral axis that is not periodic: free, wall or symmetry"});
+                {"both sides of a lateral axis that is not periodic"});
 }
 
 template <typename Visitor>

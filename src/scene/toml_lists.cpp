@@ -88,13 +88,13 @@ void TomlReader::flags(const char* key, std::array<bool, 2>& value, int count, c
 
 void TomlReader::sides(const char* key, std::array<SideKind, 2>& value,
                        const std::array<bool, 2>& periodic, int count, const Rule&) {
-  const std::vector<std::string> kinds{"free", "wall", "symmetry"};
-  const std::array<SideKind, 3> meanings{SideKind::free, SideKind::wall, SideKind::symmetry};
+  const Names<SideKind> names = names_of_sides();
+  const std::vector<std::string> kinds = texts_of(names);
   const auto read = [&](const toml::node& node, int axis) {
-    const std::vector<std::string> fixed{"periodic"};
+    const std::vector<std::string> fixed{std::string(side_law(SideKind::periodic).name)};
     std::string name;
     if (!read_name(node, key, periodic[axis] ? fixed : kinds, name) || periodic[axis]) return;
-    value[axis] = meanings[std::find(kinds.begin(), kinds.end(), name) - kinds.begin()];
+    value[axis] = names[std::find(kinds.begin(), kinds.end(), name) - kinds.begin()].second;
   };
   for (int axis = 0; axis < count; ++axis) {
     if (periodic[axis]) value[axis] = SideKind::periodic;

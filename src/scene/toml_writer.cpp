@@ -69,20 +69,6 @@ bool governs_others(const std::string& key) {
   return key == "shape" || key == "strength";
 }
 
-std::string side_text(SideKind kind) {
-  switch (kind) {
-    case SideKind::periodic:
-      return "\"periodic\"";
-    case SideKind::wall:
-      return "\"wall\"";
-    case SideKind::symmetry:
-      return "\"symmetry\"";
-    case SideKind::free:
-      break;
-  }
-  return "\"free\"";
-}
-
 }  // namespace
 
 std::string TomlWriter::path_of(const std::string& key) const {
@@ -214,10 +200,12 @@ void TomlWriter::flags(const char* key, const std::array<bool, 2>& value, int co
 
 void TomlWriter::sides(const char* key, const std::array<SideKind, 2>& value,
                        const std::array<bool, 2>&, int count, const Rule& rule) {
-  const auto text = [&](std::size_t i) { return side_text(value[i]); };
+  const auto text = [&](std::size_t i) {
+    return allowed_names({std::string(side_law(value[i]).name)});
+  };
   add(key,
       {list_text(static_cast<std::size_t>(count), text), "\"free\"",
-       allowed_names({"free", "wall", "symmetry"})},
+       allowed_names(texts_of(names_of_sides()))},
       rule);
 }
 

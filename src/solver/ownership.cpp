@@ -23,20 +23,21 @@ int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shap
 }
 
 /// Brings one coordinate back into the domain where its sides say so; false when it has escaped.
-bool confine(SideKind low, SideKind high, double length, double& x, std::int64_t& crossings) {
-  if (low == SideKind::periodic) {
-    if (x >= 0.0 && x < length) return true;
+bool confine(const SideLaw& low, const SideLaw& high, double length, double& x,
+             std::int64_t& crossings) {
+  if (x >= 0.0 && x < length) return true;
+  if (low.wraps) {
     x += x < 0.0 ? length : -length;
     // Rounding can land on the far end, which is the near one.
     if (x >= length) x = 0.0;
     return x >= 0.0;
   }
   if (x < 0.0) {
-    if (low == SideKind::free) return false;
+    if (low.lets_out) return false;
     x = 0.0;
     ++crossings;
   } else if (x >= length) {
-    if (high == SideKind::free) return false;
+    if (high.lets_out) return false;
     x = std::nextafter(length, 0.0);
     ++crossings;
   }
@@ -47,9 +48,8 @@ template <int Dim>
 bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
              std::int64_t& crossings) {
   for (int a = 0; a < Dim; ++a) {
-    const bool shock_axis = a == Dim - 1;
-    const SideKind low = shock_axis ? scene.boundary.low.kind : scene.boundary.lateral[a];
-    const SideKind high = shock_axis ? scene.boundary.high.kind : scene.boundary.lateral[a];
+    const SideLaw& low = side_law(side_at(scene.boundary, a, false, Dim).kind);
+    const SideLaw& high = side_law(side_at(scene.boundary, a, true, Dim).kind);
     if (!confine(low, high, scene.domain.size[a], particles.position[a][p], crossings))
       return false;
   }

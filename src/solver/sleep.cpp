@@ -21,8 +21,7 @@ bool can_sleep(const Scene& scene) {
     if (a != 0.0) return false;
   }
   for (int a = 0; a + 1 < scene.dimension; ++a) {
-    const SideKind kind = scene.boundary.lateral[a];
-    if (kind == SideKind::wall || kind == SideKind::symmetry) return false;
+    if (side_law(scene.boundary.lateral[a]).mirrors) return false;
   }
   for (const MaterialParameters& material : scene.materials) {
     if (scene.conduction.on && material.T0 != scene.materials.front().T0) return false;
@@ -30,11 +29,11 @@ bool can_sleep(const Scene& scene) {
   return scene.time.sleep;
 }
 
-/// Rows next to an end that is not free, where the first wave starts.
+/// Rows next to an end that stops material, where the first wave starts.
 RowRange rows_at_ends(const Boundary& boundary, const GridShape& shape) {
   RowRange rows = {std::numeric_limits<int>::max(), 0};
-  if (boundary.low.kind != SideKind::free) rows = {0, shape.stencil};
-  if (boundary.high.kind != SideKind::free) {
+  if (side_law(boundary.low.kind).mirrors) rows = {0, shape.stencil};
+  if (side_law(boundary.high.kind).mirrors) {
     rows = {std::min(rows.first, shape.rows - shape.stencil), shape.rows};
   }
   return rows;
@@ -60,7 +59,7 @@ RowRange disturbed_rows(const Simulation<Dim>& sim) {
     bool inside = true;  // what has left is gone before the next step
     for (int a = 0; a < Dim; ++a) {
       const double x = particles.position[a][p];
-      const bool periodic = a + 1 < Dim && scene.boundary.lateral[a] == SideKind::periodic;
+      const bool periodic = a + 1 < Dim && side_law(scene.boundary.lateral[a]).wraps;
       inside = inside && (periodic || (x >= 0.0 && x < scene.domain.size[a]));
       change = std::max(change, std::abs(particles.velocity[a][p] - undisturbed[a]));
     }

@@ -33,13 +33,12 @@ template <int Dim>
 Vector<Dim> grid_velocity(const Scene& scene) {
   Vector<Dim> velocity = Vector<Dim>::Zero();
   for (int a = 0; a + 1 < Dim; ++a) {
-    const SideKind kind = scene.boundary.lateral[a];
-    if (kind == SideKind::wall || kind == SideKind::symmetry) velocity[a] = scene.loading.frame[a];
+    if (side_law(scene.boundary.lateral[a]).mirrors) velocity[a] = scene.loading.frame[a];
   }
   const Side& low = scene.boundary.low;
   const Side& high = scene.boundary.high;
-  const Side& fixed = low.kind == SideKind::free ? high : low;
-  if (fixed.kind != SideKind::free) {
+  const Side& fixed = side_law(low.kind).mirrors ? low : high;
+  if (side_law(fixed.kind).mirrors) {
     velocity[Dim - 1] = fixed.velocity + scene.loading.frame[Dim - 1];
   }
   return velocity;

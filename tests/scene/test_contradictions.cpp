@@ -50,7 +50,7 @@ TEST(Contradictions, LateralSides) {
             "s.toml:20:11: boundary.lateral: found \"wall\", allowed only with an axis for which "
             "domain.periodic is false");
   EXPECT_EQ(problems(small_scene("[boundary]\nlateral = \"periodic\"\n")),
-            "s.toml:19:11: boundary.lateral: found \"periodic\", allowed \"free\", \"wall\" or "
+            "s.toml:19:11: boundary.lateral: found \"periodic\", allowed \"wall\", \"free\" or "
             "\"symmetry\"");
   EXPECT_EQ(problems(scene_with(good_domain + "periodic = [true, false]\n")),
             "s.toml:4:12: domain.periodic: found an array of 2, allowed true or false, or an array "
@@ -179,10 +179,9 @@ TEST(Contradictions, SchemesThatCannotWork) {
     EXPECT_EQ(problems(small_scene(), {"transfer.shape=quadratic", "transfer.velocity=" + name}),
               "");
   }
-  EXPECT_EQ(
-      problems(small_scene(), {"transfer.preset=lineage", "conduction.on=true"}),
-      "--set conduction.on=true: conduction.on: found true, allowed with transfer.shape = "
-      "\"quadratic\" or \"cubic\": the spread of the others depends on the place in a cell");
+  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "conduction.on=true"}),
+            "--set conduction.on=true: conduction.on: found true, allowed with transfer.shape = "
+            "\"quadratic\" or \"cubic\": the spread of the others depends on the place in a cell");
 }
 
 TEST(Contradictions, Beat) {

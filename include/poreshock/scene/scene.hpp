@@ -11,12 +11,12 @@
 
 #include "poreshock/core/shape.hpp"
 #include "poreshock/material/material.hpp"
+#include "poreshock/scene/sides.hpp"
 
 namespace poreshock {
 
 using Triple = std::array<double, 3>;
 
-enum class SideKind { periodic, wall, symmetry, free };
 enum class SampleKind { none, solid, random_voids, packed_grains, voronoi_grains, image };
 enum class Islands { removed, grains };  ///< what becomes of floating pieces
 enum class GapTest { volume, none };
@@ -36,21 +36,6 @@ struct Domain {
   std::array<int, 3> cells{};      ///< derived: size / cell
   std::array<bool, 2> periodic{};  ///< per lateral axis (x; x and y in 3-D)
   bool operator==(const Domain&) const = default;
-};
-
-/// One side of the domain. A wall only pushes; a symmetry plane also holds.
-struct Side {
-  SideKind kind = SideKind::free;
-  double velocity = 0.0;  ///< m/s along the shock axis, walls only
-  double friction = 0.0;  ///< coefficient of Coulomb friction, walls only
-  bool operator==(const Side&) const = default;
-};
-
-struct Boundary {
-  Side low;                                                         ///< shock axis, coordinate 0
-  Side high;                                                        ///< shock axis, coordinate size
-  std::array<SideKind, 2> lateral{SideKind::free, SideKind::free};  ///< both sides of x (and y)
-  bool operator==(const Boundary&) const = default;
 };
 
 /// A closed region of space. 2-D: disc, box, ring, polygon; 3-D: disc is a ball, ring a shell.
