@@ -83,7 +83,9 @@ void write_history(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   row.wall_force = mean_wall_force(sim.ledger, Dim, row.time, sim.communicator);
   mark_row(Dim, row.time, sim.ledger);
   if (has_contact(sim)) row.contact = contact_row(sim);
-  const auto write = [history = recorder.history, row] { history->write(row); };
+  const auto write = [history = recorder.history, line = history_line(row, Dim)] {
+    history->write(line);
+  };
   write_or_wait({"a row of history.csv", write}, recorder.backlog, sim.communicator);
   if (!sim.ledger.first_total) sim.ledger.first_total = row.total;
   recorder.last_row = row;
@@ -146,8 +148,8 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
                             std::unique_ptr<PixelGrid<Dim>> pixels, const Simulation<Dim>& sim) {
   Recorder<Dim> recorder;
   recorder.folder = folder;
-  recorder.history = std::make_shared<HistoryWriter>(
-      folder + "/history.csv", Dim, has_contact(sim), sim.communicator,
+  recorder.history = std::make_shared<RowFile>(
+      folder + "/history.csv", history_header(Dim, has_contact(sim)), sim.communicator,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
   recorder.pixels = std::move(pixels);
   recorder.last_checkpoint_step = sim.clock.step;

@@ -40,7 +40,7 @@ EnergyStatus energy_status(const Simulation<Dim>& sim, const Recorder<Dim>& reco
 /// Refuses records that this run could not go on with, before any is cut.
 template <int Dim>
 void require_same_records(const std::string& folder, const Simulation<Dim>& sim) {
-  require_history(folder + "/history.csv", Dim, has_contact(sim), sim.communicator);
+  require_rows(folder + "/history.csv", history_header(Dim, has_contact(sim)), sim.communicator);
   if (!(sim.scene.profile.every > 0.0)) return;
   std::int64_t floored = 0;
   require_same_profiles(folder, measure_profile(sim, floored), sim.communicator);

@@ -6,6 +6,7 @@
 
 #include "output/support.hpp"
 #include "poreshock/output/info.hpp"
+#include "poreshock/output/row_file.hpp"
 
 namespace poreshock {
 namespace {
@@ -84,9 +85,9 @@ TEST(History, GrainsAddColumns) {
 TEST(History, RowsAreThereAtOnce) {
   const TemporaryFolder folder;
   const std::string path = folder / "history.csv";
-  HistoryWriter history(path, 2, false, world);
-  history.write(sample_row(1));
-  history.write(sample_row(2));
+  RowFile history(path, plane_header, world);
+  history.write(history_line(sample_row(1), 2));
+  history.write(history_line(sample_row(2), 2));
   // Still open: a killed run would leave these rows.
   EXPECT_EQ(lines(path), (std::vector<std::string>{plane_header, history_line(sample_row(1), 2),
                                                    history_line(sample_row(2), 2)}));
@@ -97,13 +98,14 @@ TEST(History, RestartDropsLaterAndBrokenRows) {
   const TemporaryFolder folder;
   const std::string path = folder / "history.csv";
   {
-    HistoryWriter history(path, 2, false, world);
-    for (const std::int64_t step : {0, 10, 20, 30}) history.write(sample_row(step));
+    RowFile history(path, plane_header, world);
+    for (const std::int64_t step : {0, 10, 20, 30})
+      history.write(history_line(sample_row(step), 2));
   }
   test::rank_zero_alone([&] { std::ofstream(path, std::ios::app) << "1e-9,15,1e-1"; });
   {
-    HistoryWriter history(path, 2, false, world, 20);
-    history.write(sample_row(25));
+    RowFile history(path, plane_header, world, 20);
+    history.write(history_line(sample_row(25), 2));
   }
   const auto found = lines(path);
   ASSERT_EQ(found.size(), 5u);
@@ -119,16 +121,16 @@ TEST(History, RestartDropsLaterAndBrokenRows) {
 TEST(History, RestartOfAnotherKindOfFileIsRefused) {
   const TemporaryFolder folder;
   const std::string path = folder / "history.csv";
-  { HistoryWriter history(path, 3, false, world); }
+  { RowFile history(path, history_header(3, false), world); }
   MPI_Barrier(world);
-  const std::string text = thrown<InputError>([&] { HistoryWriter(path, 2, false, world, 5); });
+  const std::string text = thrown<InputError>([&] { RowFile(path, plane_header, world, 5); });
   EXPECT_TRUE(contains(text, path) && contains(text, "columns")) << text;
-  HistoryWriter fresh(folder / "fresh.csv", 2, false, world, 5);
+  RowFile fresh(folder / "fresh.csv", plane_header, world, 5);
   EXPECT_EQ(lines(folder / "fresh.csv"), (std::vector<std::string>{plane_header}));
 }
 
 TEST(History, FullDiskIsAnErrorOnAllRanks) {
-  const std::string text = thrown<SystemError>([] { HistoryWriter("/dev/full", 2, false, world); });
+  const std::string text = thrown<SystemError>([] { RowFile("/dev/full", plane_header, world); });
   EXPECT_TRUE(contains(text, "/dev/full") && contains(text, "no space left")) << text;
 }
 

@@ -1,15 +1,10 @@
 #pragma once
-// history.csv: one row of totals per record, names with units in the first line.
-
-#include <mpi.h>
+// The rows of history.csv: totals of a run, one row per record.
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-
-#include "poreshock/output/posix_file.hpp"
 
 namespace poreshock {
 
@@ -65,37 +60,5 @@ std::string history_header(int dimension, bool grains);
 
 /// One line of the file, without its end of line; 17 significant digits.
 std::string history_line(const HistoryRow& row, int dimension);
-
-/// Throws the InputError with which a HistoryWriter would refuse to go on with a file, and changes
-/// nothing; a missing file is fine. Collective.
-void require_history(const std::string& path, int dimension, bool grains, MPI_Comm communicator);
-
-/// The open history of a run. Only rank 0 has the file; all members are collective, and a failing
-/// write throws SystemError on all ranks.
-class HistoryWriter {
- public:
-  /// Starts a new file. With `restart_step` it goes on with the one there is: rows of later steps
-  /// and a line cut off by a killed run are dropped first; a missing file is started anew.
-  /// InputError when the file there has other columns.
-  HistoryWriter(const std::string& path, int dimension, bool grains, MPI_Comm communicator,
-                std::optional<std::int64_t> restart_step = std::nullopt);
-
-  /// Appends one row, and hands it to the operating system at once. A file that was removed in
-  /// between is begun again.
-  void write(const HistoryRow& row);
-
-  /// Forces the rows to the disk.
-  void sync();
-
- private:
-  void append(const std::string& line);
-
-  std::string path_;
-  int dimension_;
-  bool grains_;
-  MPI_Comm communicator_;
-  std::unique_ptr<FileDescriptor> file_;  // rank 0 only
-  std::uint64_t end_ = 0;
-};
 
 }  // namespace poreshock

@@ -7,6 +7,7 @@
 
 #include "poreshock/morphology/pixel_map.hpp"
 #include "poreshock/output/history.hpp"
+#include "poreshock/output/row_file.hpp"
 #include "poreshock/run/backlog.hpp"
 #include "poreshock/solver/simulation.hpp"
 
@@ -16,7 +17,7 @@ namespace poreshock {
 template <int Dim>
 struct Recorder {
   std::string folder;
-  std::shared_ptr<HistoryWriter> history;  ///< shared with rows that wait
+  std::shared_ptr<RowFile> history;        ///< shared with rows that wait
   std::unique_ptr<PixelGrid<Dim>> pixels;  ///< only with morphology
   HistoryRow last_row;                     ///< latest row of the history
   double last_checkpoint_wall = 0.0;       ///< s
