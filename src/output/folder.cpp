@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 9> own_names = {
-    "scene.toml",  "history.csv",  "snapshots.xdmf", "maps.xdmf",  "morphology.h5",
-    "profiles.h5", "timings.json", "failed.h5",      "report.html"};
+constexpr std::array<std::string_view, 10> own_names = {
+    "scene.toml",  "history.csv", "snapshots.xdmf", "maps.xdmf", "morphology.h5",
+    "profiles.h5", "probes.h5",   "timings.json",   "failed.h5", "report.html"};
 
 struct SeriesName {
   std::string_view prefix;
@@ -40,6 +40,15 @@ void for_each_own_file(const std::string& folder, const std::string& ending, Vis
       visit(file.path);
     }
   }
+  // First a list: visit may remove files.
+  std::vector<std::string> traces;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("probe_") && name.ends_with(".csv" + ending)) {
+      traces.push_back(entry.path().string());
+    }
+  }
+  for (const std::string& path : traces) visit(path);
 }
 
 /// True for a scene.toml that a run has written, or for none; another one is the user's.

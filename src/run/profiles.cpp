@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "poreshock/particles/derived.hpp"
+#include "quanta.hpp"
 
 namespace poreshock {
 
@@ -26,22 +27,6 @@ enum RowSum : std::size_t {
 /// Kinetic energy of the deviation from the mean velocity of a row: of all components, and of the
 /// one along the shock axis.
 enum FluctuationSum : std::size_t { all_axes, shock_axis, fluctuation_sum_count };
-
-/// Inverse quanta of the sums: powers of two, so that rounding stays below 2^-50 of what one
-/// particle usually brings.
-struct Quanta {
-  double mass, volume, energy, heat, momentum;
-};
-
-Quanta make_quanta(const Ledger& ledger, const std::vector<Material>& materials,
-                   const Scene& scene) {
-  double density = 0.0, temperature = temperature_floor;
-  for (const Material& m : materials) density = std::max(density, m.eos.density);
-  for (const auto& m : scene.materials) temperature = std::max(temperature, m.T0);
-  const double per_mass = 1.0 / mass_quantum(ledger);
-  return {per_mass, per_mass * power_of_two_below(density), ledger.nodes.inverse_energy_quantum,
-          per_mass / power_of_two_below(temperature), ledger.nodes.inverse_momentum_quantum};
-}
 
 /// Where a particle lies: its rows and the share of it in the lower one.
 struct Place {

@@ -151,6 +151,7 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
   recorder.history = std::make_shared<RowFile>(
       folder + "/history.csv", history_header(Dim, has_contact(sim)), sim.communicator,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
+  recorder.probes = open_probes(folder, restarted, sim);
   recorder.pixels = std::move(pixels);
   recorder.last_checkpoint_step = sim.clock.step;
   recorder.first_unforced = restarted ? sim.clock.beat : 0;
@@ -163,6 +164,7 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const std::int64_t beat = sim.clock.beat;
   const bool all = last || sim.clock.step == 0;
   catch_up(recorder.backlog, sim.communicator);
+  write_probe_rows(recorder.probes, recorder.backlog, sim.communicator);
   const bool measures =
       recorder.pixels && (all || due(beats_of(sim.scene.morphology.every, output.beat), beat));
   const bool shows = all || due(beats_of(output.snapshot, output.beat), beat);
@@ -178,7 +180,9 @@ void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   if (shows) write_snapshot_record(map, sim, recorder);
   const std::int64_t history = std::max<std::int64_t>(1, beats_of(output.history, output.beat));
   if (all || due(history, beat)) write_history(sim, recorder);
-  if (last) finish_records(snapshot_name(record_number(sim)), sim.communicator, recorder);
+  if (!last) return;
+  finish_records(snapshot_name(record_number(sim)), sim.communicator, recorder);
+  finish_probes(recorder.folder, sim, recorder.probes);
 }
 
 template <int Dim>
@@ -209,12 +213,14 @@ template <int Dim>
 std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::checkpoint);
   const std::string name = checkpoint_name(sim.clock.step);
+  write_probe_rows(recorder.probes, recorder.backlog, sim.communicator);
   // A run that goes on from here writes later records only: the earlier ones come first.
   if (!catch_up(recorder.backlog, sim.communicator)) {
     throw SystemError("cannot write " + name +
                       " before the records that wait: " + recorder.backlog.reason);
   }
   recorder.history->sync();
+  for (const ProbeRecorder& probe : recorder.probes) probe.file->sync();
   sync_records(recorder.folder, recorder.first_unforced, sim.communicator);
   recorder.first_unforced = record_number(sim);
   const std::string path = recorder.folder + "/" + name;
@@ -226,7 +232,8 @@ std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 }
 
 template <int Dim>
-void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
+void write_failed_state(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
+  write_probe_rows(recorder.probes, recorder.backlog, sim.communicator);
   try {
     write_snapshot<Dim>(recorder.folder + "/failed.h5", snapshot_input(sim), sim.communicator);
   } catch (const SystemError& failure) {
@@ -246,7 +253,7 @@ template void checkpoint_when_due<2>(double, Simulation<2>&, Recorder<2>&);
 template void checkpoint_when_due<3>(double, Simulation<3>&, Recorder<3>&);
 template std::string checkpoint_now<2>(Simulation<2>&, Recorder<2>&);
 template std::string checkpoint_now<3>(Simulation<3>&, Recorder<3>&);
-template void write_failed_state<2>(Simulation<2>&, const Recorder<2>&);
-template void write_failed_state<3>(Simulation<3>&, const Recorder<3>&);
+template void write_failed_state<2>(Simulation<2>&, Recorder<2>&);
+template void write_failed_state<3>(Simulation<3>&, Recorder<3>&);
 
 }  // namespace poreshock

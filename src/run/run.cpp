@@ -41,6 +41,9 @@ EnergyStatus energy_status(const Simulation<Dim>& sim, const Recorder<Dim>& reco
 template <int Dim>
 void require_same_records(const std::string& folder, const Simulation<Dim>& sim) {
   require_rows(folder + "/history.csv", history_header(Dim, has_contact(sim)), sim.communicator);
+  for (const Probe& probe : sim.scene.probes) {
+    require_rows(folder + "/" + probe_file_name(probe.name), probe_header(Dim), sim.communicator);
+  }
   if (!(sim.scene.profile.every > 0.0)) return;
   std::int64_t floored = 0;
   require_same_profiles(folder, measure_profile(sim, floored), sim.communicator);
@@ -202,7 +205,10 @@ template <int Dim>
 RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
                  Progress& progress) {
   const TimeControl& limits = sim.scene.time;
-  if (options.restart.empty()) record(false, sim, recorder);
+  if (options.restart.empty()) {
+    note_probes(sim, recorder.probes);
+    record(false, sim, recorder);
+  }
   bool stop_asked = synchronise(options, progress, sim);
   while (!at_end(limits, sim.clock)) {
     if (stop_asked) {
@@ -210,6 +216,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
       return RunEnd::stopped;
     }
     stop_asked = step(options, sim, progress);
+    note_probes(sim, recorder.probes);
     const bool last = at_end(limits, sim.clock);
     if (sim.clock.on_beat || last) record(last, sim, recorder);
     checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);
@@ -229,7 +236,10 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   const bool restarted = !options.restart.empty();
   Simulation<Dim> sim = restarted ? resume<Dim>(scene, options.restart, communicator)
                                   : start<Dim>(scene, communicator);
-  if (!restarted) progress.warnings = warn_of_start(sim);
+  if (!restarted) {
+    require_targets(sim);
+    progress.warnings = warn_of_start(sim);
+  }
   // The map's rows may not suffice for the ranks, which is better said before anything is removed.
   std::unique_ptr<PixelGrid<Dim>> pixels = make_pixels(sim);
   if (options.continues) require_same_records(options.folder, sim);

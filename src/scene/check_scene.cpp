@@ -288,6 +288,7 @@ void check_scene(const Scene& scene, Report& report) {
   check_scheme(scene, report);
   check_output(scene, report);
   check_morphology(scene, report);
+  check_probes(scene, report);
 }
 
 }  // namespace poreshock::scene_text

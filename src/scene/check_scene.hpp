@@ -18,6 +18,9 @@ void check_materials(const Scene& scene, Report& report);
 /// The part of it about generated grains.
 void check_grains(const Scene& scene, Report& report);
 
+/// The part of it about probes.
+void check_probes(const Scene& scene, Report& report);
+
 /// The part of it about [transfer] and [conduction]: combinations that cannot work.
 void check_scheme(const Scene& scene, Report& report);
 

@@ -9,6 +9,7 @@
 #include "dataset_names.hpp"
 #include "material_table.hpp"
 #include "poreshock/scene/scene.hpp"
+#include "probe_table.hpp"
 #include "rules.hpp"
 #include "sample_table.hpp"
 #include "transfer_table.hpp"
@@ -219,6 +220,8 @@ void visit_scene(Visitor& visitor, Scene& scene) {
                 [&](auto& inner) { visit_morphology(inner, scene); });
   visitor.table("profile", {"Averages over rows of cells along the shock axis, and the front."},
                 [&](auto& inner) { visit_profile(inner, scene); });
+  visitor.tables("probe", scene.probes, {"A trace of velocity, pressure and temperature."},
+                 [&](auto& inner, Probe& item) { visit_probe(inner, item, scene); });
   visitor.table("checkpoint", {"Checkpoints."},
                 [&](auto& inner) { visit_checkpoint(inner, scene.checkpoint); });
 }

@@ -9,6 +9,7 @@
 #include "poreshock/output/history.hpp"
 #include "poreshock/output/row_file.hpp"
 #include "poreshock/run/backlog.hpp"
+#include "poreshock/run/probes.hpp"
 #include "poreshock/solver/simulation.hpp"
 
 namespace poreshock {
@@ -17,7 +18,8 @@ namespace poreshock {
 template <int Dim>
 struct Recorder {
   std::string folder;
-  std::shared_ptr<RowFile> history;        ///< shared with rows that wait
+  std::shared_ptr<RowFile> history;  ///< shared with rows that wait
+  std::vector<ProbeRecorder> probes;
   std::unique_ptr<PixelGrid<Dim>> pixels;  ///< only with morphology
   HistoryRow last_row;                     ///< latest row of the history
   double last_checkpoint_wall = 0.0;       ///< s
@@ -55,6 +57,6 @@ std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder);
 /// Writes failed.h5, the state that went bad; costs a warning when the disk does not take it.
 /// Collective.
 template <int Dim>
-void write_failed_state(Simulation<Dim>& sim, const Recorder<Dim>& recorder);
+void write_failed_state(Simulation<Dim>& sim, Recorder<Dim>& recorder);
 
 }  // namespace poreshock

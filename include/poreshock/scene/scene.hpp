@@ -28,6 +28,9 @@ enum class MapLattice { eulerian, lagrangian };
 enum class MapVoids { black, white, fill, exclude };
 enum class BoundaryLength { pixels, isoline };
 enum class Precision { double_precision, single_precision };
+enum class ProbeKind { point, particle, surface, interface };
+enum class Facing { up, down };
+enum class Cadence { step, beat };
 
 /// The block of background cells.
 struct Domain {
@@ -169,6 +172,17 @@ struct ProfileOutput {
   bool operator==(const ProfileOutput&) const = default;
 };
 
+/// A place whose motion and state are recorded as a trace.
+struct Probe {
+  std::string name;
+  ProbeKind kind = ProbeKind::surface;
+  Triple at{};  ///< m: of a point in the laboratory, of others at the start; no height of a surface
+  double width = 0.0;         ///< m, of the spot that is averaged over
+  Facing faces = Facing::up;  ///< surface or interface: up means that its material lies below
+  Cadence every = Cadence::step;
+  bool operator==(const Probe&) const = default;
+};
+
 struct Checkpoint {
   std::int64_t every_steps = 0;  ///< 0 = off
   double every_time = 0.0;       ///< s of simulated time, 0 = off
@@ -197,6 +211,7 @@ struct Scene {
   Output output;
   Morphology morphology;
   ProfileOutput profile;
+  std::vector<Probe> probes;
   Checkpoint checkpoint;
   bool operator==(const Scene&) const = default;
 };
