@@ -21,7 +21,7 @@ void TomlReader::numbers(const char* key, Triple& value, int& count,
                          std::initializer_list<int> counts, const NumberRule& rule) {
   std::string allowed = "an array of ";
   for (const int n : counts) allowed += (n == *counts.begin() ? "" : " or ") + std::to_string(n);
-  allowed = allowed_numbers(allowed + " numbers", rule);
+  allowed = allowed_numbers(allowed + (*(counts.end() - 1) == 1 ? " number" : " numbers"), rule);
   const toml::node* node = find(key, rule.need, allowed);
   if (node == nullptr) return;
   const toml::array* array = node->as_array();

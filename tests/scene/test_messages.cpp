@@ -14,7 +14,7 @@ namespace {
 const std::string top_keys =
     "title, thermal, domain, boundary, material, sample, body, void, loading, body_force, "
     "transfer, "
-    "viscosity, conduction, contact, time, output, morphology, profile, checkpoint";
+    "viscosity, conduction, contact, time, output, morphology, profile, probe, checkpoint";
 
 TEST(Messages, GoodSceneHasNone) {
   EXPECT_EQ(problems(small_scene()), "");

@@ -3,8 +3,8 @@ import html
 
 import h5py
 
-from . import (energy_figures, figures, frames, grain_figures, hugoniot_figures, markup, morphology_figures, profile_figures,
-               profiles, summary, volume_figures)
+from . import (energy_figures, figures, frames, grain_figures, hugoniot_figures, markup, morphology_figures, probes,
+               profile_figures, profiles, summary, volume_figures)
 from . import folder as reader
 from .markup import missing, picture, table
 
@@ -150,6 +150,7 @@ def write(folder, heights=()):
         *volume_sections(folder, scene, heights),
         *morphology_sections(folder, start),
         *profile_sections(folder),
+        *probes.sections(folder),
         *grain_sections(folder),
         picture(folder, "energy", "Energy ledger", "Above: kinetic, internal and total energy. Middle: where the "
                 "energy went. Below: how far the total is from its first value.",

@@ -1,0 +1,65 @@
+"""Traces of probes: the same on any number of ranks and over a restart, and read back from probes.h5."""
+import unittest
+
+import numpy
+
+import program
+from program import POROUS
+
+PROBES = """
+[[probe]]
+name = "top"
+at = [0.1e-3]
+width = 60e-6
+[[probe]]
+name = "gauge"
+kind = "particle"
+at = [0.1e-3, 0.1e-3]
+width = 30e-6
+every = "beat"
+"""
+
+
+class Traces(program.ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.write("porous.toml", POROUS + PROBES)
+        cls.run_scene("porous.toml", "whole", "--set", "checkpoint.every_steps=0")
+        cls.run_scene("porous.toml", "stopped", "--set", "time.max_steps=62", ranks=3)
+        cls.run_scene("porous.toml", "stopped", "--restart", "latest", ranks=2)
+
+    def trace(self, folder, name):
+        return (self.folder / folder / f"probe_{name}.csv").read_bytes()
+
+    def test_a_restart_on_other_ranks_goes_on_with_the_same_bytes(self):
+        for name in ("top", "gauge"):
+            self.assertEqual(self.trace("stopped", name), self.trace("whole", name))
+        self.assert_same_datasets("stopped/probes.h5", "whole/probes.h5")
+
+    def test_one_row_per_step_or_per_beat(self):
+        history = program.history(self.folder / "whole/history.csv")
+        steps = int(history["step"][-1])
+        self.assertEqual(self.trace("whole", "top").count(b"\n"), steps + 2)
+        self.assertEqual(self.trace("whole", "gauge").count(b"\n"), 9 + 1)  # 20 ns in beats of 2.5 ns
+
+    def test_probes_h5_holds_the_traces_and_their_figures(self):
+        found = program.datasets(self.folder / "whole/probes.h5")
+        lines = self.trace("whole", "gauge").decode().splitlines()
+        names = [entry.split(" [")[0] for entry in lines[0].split(",")]
+        for k, name in enumerate(names):
+            numbers = numpy.array([float(line.split(",")[k]) for line in lines[1:]])
+            self.assertTrue(program.same_bits(found[f"gauge/{name}"], numbers), name)
+        self.assertAlmostEqual(found["gauge/velocity_y"][0], -1500.0, places=6)
+        self.assertGreater(found["gauge/figures/jump_off"][0], 1000.0)
+        self.assertTrue(0.0 < found["gauge/figures/arrival"][0] < 20e-9)
+
+    def test_force_removes_old_traces(self):
+        self.write("plain.toml", POROUS)
+        self.run_scene("porous.toml", "forced", "--set", "time.max_steps=2")
+        self.run_scene("plain.toml", "forced", "--force", "--set", "time.max_steps=2")
+        self.assertEqual([path.name for path in (self.folder / "forced").glob("probe*")], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
