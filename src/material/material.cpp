@@ -34,6 +34,14 @@ FlowStress steinberg_guinan(const SteinbergGuinanParameters& p) {
   return law;
 }
 
+/// Linear hardening as a flow stress, which can then fall with the molten share.
+FlowStress linear_flow(const MaterialParameters& p) {
+  FlowStress law;
+  law.start = p.yield;
+  law.hardening = p.hardening;
+  return law;
+}
+
 }  // namespace
 
 Material make_material(const MaterialParameters& p) {
@@ -50,13 +58,17 @@ Material make_material(const MaterialParameters& p) {
     m.flow = steinberg_guinan(p.steinberg_guinan);
   }
   m.temperature = make_temperature_curve(m.eos);
+  if (p.melting != MeltingLaw::none) {
+    m.melt = make_melt_curve(p.melting, p.melt, m.eos, m.temperature);
+    if (!m.flow && m.strength.shear > 0.0) m.flow = linear_flow(p);
+  }
   m.plastic_heat = p.plastic_heat;
   m.conductivity = p.conductivity;
   if (p.spall > 0.0) m.spall = p.spall;
   return m;
 }
 
-double temperature(const Material& m, Thermal thermal, const ThermalState& state) {
+MaterialPhase material_phase(const Material& m, Thermal thermal, const ThermalState& state) {
   const bool paper = thermal == Thermal::paper;
   const double heat = paper ? state.plastic_work
                             : state.internal_energy -
@@ -67,8 +79,14 @@ double temperature(const Material& m, Thermal thermal, const ThermalState& state
     eta = std::max(eta, unloaded_eta(m.eos, paper ? 1.0 : 1.0 + 0.5 * m.eos.gamma, heat));
   }
   const double reference = reference_temperature(m.temperature, eta);
-  if (paper) return reference + (heat + state.conducted_heat) / m.eos.cv;
-  return reference + (heat - reference_point(m.eos, eta).energy) / m.eos.cv;
+  if (paper) return {reference + (heat + state.conducted_heat) / m.eos.cv, 0.0};
+  const double thermal_energy = heat - reference_point(m.eos, eta).energy;
+  const double solid = reference + thermal_energy / m.eos.cv;
+  if (!m.melt) return {solid, 0.0};
+  const double density = m.eos.density / (1.0 - eta);
+  const double pressure =
+      reference_point(m.eos, eta).pressure + m.eos.gamma * density * thermal_energy;
+  return phase_of(*m.melt, m.eos.cv, solid, melting_temperature(*m.melt, density, pressure));
 }
 
 double longitudinal_sound_speed(const Material& m) {

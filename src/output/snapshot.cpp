@@ -60,6 +60,11 @@ void for_each_dataset(const Source<Dim>& source, Visitor&& visit) {
     return p.deviator[c][i] - (c < 3 ? p.pressure[i] : 0.0);
   });
   give("temperature", "K", 1, [&](std::size_t i, std::size_t) { return source.temperature[i]; });
+  if (can_melt(input.scene)) {
+    give("molten", "1", 1, [&](std::size_t i, std::size_t) {
+      return particle_phase<Dim>(p, input.materials, input.scene.thermal, i).molten;
+    });
+  }
   give("kinetic_energy", "J/kg", 1,
        [&](std::size_t i, std::size_t) { return kinetic_energy(p, source.affine_inertia, i); });
 }

@@ -12,13 +12,14 @@ namespace poreshock {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> units = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> units = {
     {{"temperature", "K"},
      {"pressure", "Pa"},
      {"density", "kg/m^3"},
      {"speed", "m/s"},
      {"von_mises", "Pa"},
-     {"plastic_strain", "1"}}};
+     {"plastic_strain", "1"},
+     {"molten", "1"}}};
 
 template <int Dim>
 double square(const std::array<std::vector<double>, symmetric_size<Dim>>& tensor, std::size_t i) {
@@ -45,6 +46,15 @@ std::int64_t temperatures(const Particles<Dim>& p, const std::vector<Material>& 
 }
 
 template <int Dim>
+void molten_shares(const Particles<Dim>& p, const std::vector<Material>& materials, Thermal thermal,
+                   std::vector<double>& out) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    out[i] = p.density[i] > 0.0 ? particle_phase<Dim>(p, materials, thermal, i).molten
+                                : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+template <int Dim>
 void speeds(const Particles<Dim>& p, std::vector<double>& out) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     double sum = 0.0;
@@ -65,8 +75,8 @@ std::string_view derived_unit(std::string_view name) {
 }
 
 template <int Dim>
-double particle_temperature(const Particles<Dim>& p, const std::vector<Material>& materials,
-                            Thermal thermal, std::size_t i) {
+MaterialPhase particle_phase(const Particles<Dim>& p, const std::vector<Material>& materials,
+                             Thermal thermal, std::size_t i) {
   const ThermalState state{p.density[i],
                            p.internal_energy[i],
                            p.plastic_work[i],
@@ -74,7 +84,7 @@ double particle_temperature(const Particles<Dim>& p, const std::vector<Material>
                            square<Dim>(p.deviator, i),
                            p.options.back_stress ? square<Dim>(p.back_stress, i) : 0.0,
                            p.options.failed && p.failed[i] != 0};
-  return temperature(materials[static_cast<std::size_t>(p.material[i])], thermal, state);
+  return material_phase(materials[static_cast<std::size_t>(p.material[i])], thermal, state);
 }
 
 template <int Dim>
@@ -88,6 +98,7 @@ std::int64_t derive_field(std::string_view name, const Particles<Dim>& particles
   if (name == "density") out = particles.density;
   if (name == "plastic_strain") out = particles.plastic_strain;
   if (name == "speed") speeds(particles, out);
+  if (name == "molten") molten_shares(particles, materials, thermal, out);
   if (name == "von_mises") {
     for (std::size_t i = 0; i < particles.size(); ++i) {
       out[i] = std::sqrt(1.5 * square<Dim>(particles.deviator, i));
@@ -96,10 +107,10 @@ std::int64_t derive_field(std::string_view name, const Particles<Dim>& particles
   return 0;
 }
 
-template double particle_temperature<2>(const Particles<2>&, const std::vector<Material>&, Thermal,
-                                        std::size_t);
-template double particle_temperature<3>(const Particles<3>&, const std::vector<Material>&, Thermal,
-                                        std::size_t);
+template MaterialPhase particle_phase<2>(const Particles<2>&, const std::vector<Material>&, Thermal,
+                                         std::size_t);
+template MaterialPhase particle_phase<3>(const Particles<3>&, const std::vector<Material>&, Thermal,
+                                         std::size_t);
 double affine_inertia(const Transfer& transfer, double cell) {
   if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
   return of_shape(transfer.shape, [cell]<class Shape>(const Shape&) {

@@ -47,9 +47,10 @@ void plastic_increments(const std::vector<Material>& materials, Thermal thermal,
   double equivalent[block_size], factors[block_size];
   for (std::size_t k = 0; k < places.size(); ++k) {
     const std::size_t i = places[k];
-    factors[k] =
-        thermal_factor(*m.flow, particles.pressure[i], particles.density[i] / m.eos.density,
-                       particle_temperature<Dim>(particles, materials, thermal, i));
+    const MaterialPhase phase = particle_phase<Dim>(particles, materials, thermal, i);
+    factors[k] = (1.0 - phase.molten) * thermal_factor(*m.flow, particles.pressure[i],
+                                                       particles.density[i] / m.eos.density,
+                                                       phase.temperature);
   }
   trial_norms<Dim>(c, m.strength.shear, dt, places.size(), equivalent);
   solve(*m.flow, m.strength.shear, dt, equivalent, factors, c.particle.plastic_strain,

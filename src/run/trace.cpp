@@ -9,7 +9,7 @@ namespace poreshock {
 
 namespace {
 
-constexpr double least_fall = 0.05, rebound = 0.1, top = 0.95, arrived = 0.25;
+constexpr double least_fall = 0.05, rebound = 0.1, top = 0.95, arrived = 0.4;
 
 struct Sample {
   double time, change;

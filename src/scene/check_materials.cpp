@@ -42,6 +42,29 @@ void check_strength(const MaterialParameters& m, std::size_t i, Report& report) 
   }
 }
 
+void check_melting(const Scene& scene, std::size_t i, Report& report) {
+  const MaterialParameters& m = scene.materials[i];
+  if (m.melting == MeltingLaw::none || has_problem(report, path_of(i, "melting"))) return;
+  if (scene.thermal == Thermal::paper && good(report, {"thermal"})) {
+    add_problem(path_of(i, "melting"),
+                "found a melt curve, allowed only with thermal = \"conserving\": in paper mode not "
+                "all heat is in the temperature",
+                report);
+  }
+  if (m.kinematic_share > 0.0 && !has_problem(report, path_of(i, "kinematic_share"))) {
+    add_problem(path_of(i, "kinematic_share"),
+                "found " + plain_number(m.kinematic_share) +
+                    ", allowed 0 where the material melts: a liquid keeps no back stress",
+                report);
+  }
+  if (!has_problem(report, path_of(i, "melt")) && !(m.melt.temperature > m.T0)) {
+    add_problem(path_of(i, "melt.temperature"),
+                "found " + plain_number(m.melt.temperature) +
+                    " K, allowed more than T0 = " + plain_number(m.T0) + " K: it starts solid",
+                report);
+  }
+}
+
 }  // namespace
 
 void check_materials(const Scene& scene, Report& report) {
@@ -51,6 +74,7 @@ void check_materials(const Scene& scene, Report& report) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     check_name(scene, i, report);
     check_strength(scene.materials[i], i, report);
+    check_melting(scene, i, report);
   }
 }
 

@@ -250,7 +250,15 @@ void check_morphology(const Scene& scene, Report& report) {
   const bool sites = scene.morphology.lattice == MapLattice::lagrangian;
   sites ? check_site(scene, report) : check_pixel(scene, report);
   if (!good(report, {"morphology.every", "morphology.fields"})) return;
-  if (scene.morphology.every > 0.0 && scene.morphology.fields.empty()) {
+  const auto& fields = scene.morphology.fields;
+  const bool molten = std::any_of(fields.begin(), fields.end(),
+                                  [](const MorphologyField& f) { return f.name == "molten"; });
+  if (molten && !can_melt(scene) && good(report, {"material"})) {
+    add_problem("morphology.fields",
+                "found \"molten\", allowed only where a material melts: set material.melting",
+                report);
+  }
+  if (scene.morphology.every > 0.0 && fields.empty()) {
     add_problem("morphology.fields", "missing, give at least one field, or every = 0", report);
   }
 }

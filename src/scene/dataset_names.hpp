@@ -38,11 +38,12 @@ inline std::vector<std::string> datasets_of(const Scene& scene) {
   std::vector<std::string> names = particle_datasets;
   if (scene.thermal == Thermal::paper && conducts_heat(scene)) names.push_back("conducted_heat");
   if (can_fail(scene)) names.push_back("failed");
+  if (can_melt(scene)) names.push_back("molten");
   if (may_have_contact(scene)) names.push_back("colour");
   return names;
 }
 
 inline const std::vector<std::string> morphology_fields{
-    "temperature", "pressure", "density", "speed", "von_mises", "plastic_strain"};
+    "temperature", "pressure", "density", "speed", "von_mises", "plastic_strain", "molten"};
 
 }  // namespace poreshock::scene_text

@@ -74,6 +74,33 @@ void visit_strength(Visitor& visitor, MaterialParameters& material, bool known) 
          {"all plastic work is heat, or all but what the back stress stores"});
 }
 
+template <typename Visitor>
+void visit_melting(Visitor& visitor, MaterialParameters& material, bool known) {
+  const Names<MeltingLaw> laws{{"none", MeltingLaw::none},
+                               {"lindemann", MeltingLaw::lindemann},
+                               {"simon_glatzel", MeltingLaw::simon_glatzel}};
+  choice(visitor, "melting", material.melting, laws,
+         {"none: stays solid at any temperature; else its melt curve; conserving mode only"});
+  if (material.melting == MeltingLaw::none) return;
+  MeltParameters& melt = material.melt;
+  const Need need = known && melt.latent_heat > 0.0 ? Need::optional : Need::required;
+  visitor.table(
+      "melt",
+      {"T_m = temperature (rho/rho_0)^(2 (gamma - 1/3)), lindemann, or temperature (1 + "
+       "P/pressure)^(1/exponent), simon_glatzel."},
+      [&](auto& inner) {
+        inner.number("temperature", melt.temperature, {positive, "K", "at no pressure", need});
+        inner.number(
+            "latent_heat", melt.latent_heat,
+            {positive, "J/kg", "taken up while the temperature stays on the melt curve", need});
+        if (material.melting != MeltingLaw::simon_glatzel) return;
+        inner.number("pressure", melt.pressure,
+                     {positive, "Pa", "a of simon_glatzel", Need::required});
+        inner.number("exponent", melt.exponent,
+                     {positive, "", "c of simon_glatzel", Need::required});
+      });
+}
+
 /// The name; without numbers of its own (`own`) the material must have one of the library.
 template <typename Visitor>
 void visit_name(Visitor& visitor, bool own, std::string& name) {
@@ -118,6 +145,7 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
   visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
   visitor.number("spall", material.spall, {not_negative, "Pa", "tension it fails at; 0 = never"});
+  visit_melting(visitor, material, known);
 }
 
 }  // namespace poreshock::scene_text

@@ -66,7 +66,7 @@ std::string triple_text(const Triple& value, int count) {
 }
 
 bool governs_others(const std::string& key) {
-  return key == "shape" || key == "strength";
+  return key == "shape" || key == "strength" || key == "melting";
 }
 
 }  // namespace

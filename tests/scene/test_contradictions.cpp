@@ -222,7 +222,7 @@ TEST(Contradictions, Morphology) {
   EXPECT_EQ(
       problems(small_scene(on + "fields = [\"temprature\"]\nthresholds = [310]\n")),
       "s.toml:20:11: morphology.fields: found \"temprature\", allowed \"temperature\", "
-      "\"pressure\", \"density\", \"speed\", \"von_mises\" or \"plastic_strain\", did you mean "
+      "\"pressure\", \"density\", \"speed\", \"von_mises\", \"plastic_strain\" or \"molten\", did you mean "
       "\"temperature\"?");
   EXPECT_EQ(
       problems(small_scene(on + "fields = [\"speed\"]\n")),
@@ -245,6 +245,45 @@ TEST(Contradictions, Morphology) {
       "out of morphology.fields\n"
       "s.toml:21:29: morphology.thresholds.densty: unknown key, allowed speed, density, did you "
       "mean \"density\"?");
+}
+
+TEST(Contradictions, Melting) {
+  const std::string melts = "melting = \"simon_glatzel\"\n";
+  const auto with = [&](const std::string& keys) {
+    std::string text = small_scene();
+    text.insert(text.find("[sample]"), keys);
+    return problems(text);
+  };
+  EXPECT_EQ(with(melts + "[material.melt]\ntemperature = 200\nlatent_heat = 4e5\n"),
+            "s.toml:15:1: material.0.melt.pressure: missing, give a number > 0 (Pa)\n"
+            "s.toml:15:1: material.0.melt.exponent: missing, give a number > 0");
+  EXPECT_EQ(with("kinematic_share = 0.5\nmelting = \"lindemann\"\n"
+                 "melt = { temperature = 200, latent_heat = 4e5 }\n"),
+            "s.toml:14:19: material.0.kinematic_share: found 0.5, allowed 0 where the material "
+            "melts: a liquid keeps no back stress\n"
+            "s.toml:16:24: material.0.melt.temperature: found 200 K, allowed more than T0 = 300 K: "
+            "it starts solid");
+  EXPECT_EQ(problems("thermal = \"paper\"\n" + small_scene(),
+                     {"material.0.melting=lindemann",
+                      "material.0.melt={temperature=900, latent_heat=4e5}"}),
+            "--set material.0.melting=lindemann: material.0.melting: found a melt curve, allowed "
+            "only with thermal = \"conserving\": in paper mode not all heat is in the temperature");
+  EXPECT_EQ(problems(small_scene("[morphology]\nfields = [\"molten\"]\nthresholds = [0.5]\n")),
+            "s.toml:19:10: morphology.fields: found \"molten\", allowed only where a material "
+            "melts: set material.melting");
+}
+
+TEST(Contradictions, BehindAFreeSide) {
+  const auto with = [&](const std::string& high) {
+    return problems(small_scene("[boundary]\nhigh = " + high + "\n"));
+  };
+  EXPECT_EQ(with("{ kind = \"free\", behind = \"aluminium\" }"), "");
+  EXPECT_EQ(with("{ kind = \"free\", behind = \"water\" }"),
+            "s.toml:19:34: boundary.high.behind: found \"water\", allowed the name of a "
+            "[[material]]");
+  EXPECT_EQ(with("{ kind = \"wall\", behind = \"aluminium\" }"),
+            "s.toml:19:34: boundary.high.behind: found \"aluminium\", allowed only with kind = "
+            "\"free\"");
 }
 
 TEST(Contradictions, HotSpots) {

@@ -126,7 +126,7 @@ TEST(Messages, MaterialsOfTheLibrary) {
       problems(with_material("name = \"pmma\"\nrate = 0.1\n")),
       "s.toml:6:1: material.0.rate: unknown key, allowed name, model, density, young, poisson, "
       "strength, yield, hardening, kinematic_share, plastic_heat, c0, lambda, gamma, cv, "
-      "conductivity, T0, spall");
+      "conductivity, T0, spall, melting");
 }
 
 TEST(Messages, StrengthModels) {

@@ -53,7 +53,7 @@ class Traces(unittest.TestCase):
             self.assertNotIn("Missing", text)
             self.assertIn("<td>a</td>", text)
             self.assertIn("<h2>Probes</h2>", text)
-            self.assertEqual(text.count("<td>-</td>"), 3)
+            self.assertEqual(text.count(">-</td>"), 3)
 
 
 if __name__ == "__main__":

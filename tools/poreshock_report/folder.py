@@ -42,6 +42,19 @@ def read_timings(folder):
         raise Missing(f"timings.json cannot be read: {error}") from None
 
 
+def molten_share(folder):
+    """Share of the mass that is molten in the newest snapshot; None where nothing can melt."""
+    try:
+        newest = snapshot_times(folder)[-1][1]
+    except Missing:
+        return None
+    with h5py.File(newest, "r") as file:
+        particles = file.get("particles", {})
+        if "molten" not in particles or "mass" not in particles:
+            return None
+        return float(numpy.average(particles["molten"][...], weights=particles["mass"][...]))
+
+
 def read_history(folder):
     """Columns of history.csv by name, and their units by name."""
     path = folder / "history.csv"

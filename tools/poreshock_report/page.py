@@ -39,6 +39,9 @@ def final_numbers(folder, title, thermal):
             if name in columns:
                 unit = "" if units[name] == "-" else f" [{units[name]}]"
                 rows.append((label + unit, columns[name][-1]))
+        molten = reader.molten_share(folder)
+        if molten is not None:
+            rows.append(("molten share of the mass at the end [-]", molten))
         if "total" in columns:
             off = reader.drift(columns)
             rows += [("energy drift at the end [-]", off[-1]), ("largest energy drift [-]", off.max())]

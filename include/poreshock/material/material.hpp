@@ -8,6 +8,7 @@
 
 #include "poreshock/material/flow_stress.hpp"
 #include "poreshock/material/j2_plasticity.hpp"
+#include "poreshock/material/melting.hpp"
 #include "poreshock/material/mie_gruneisen.hpp"
 
 namespace poreshock {
@@ -65,6 +66,8 @@ struct MaterialParameters {
   double conductivity = 0.0;  ///< W/(m K)
   double T0 = 300.0;          ///< K
   double spall = 0.0;         ///< Pa, tension at which the material fails; 0 = never
+  MeltingLaw melting = MeltingLaw::none;
+  MeltParameters melt;
 
   bool operator==(const MaterialParameters&) const = default;
 };
@@ -75,6 +78,7 @@ struct Material {
   J2Plasticity strength;
   std::optional<FlowStress> flow;  ///< in place of linear hardening
   TemperatureCurve temperature;
+  std::optional<MeltCurve> melt;  ///< where it melts
   PlasticHeat plastic_heat = PlasticHeat::work;
   double conductivity = 0.0;                               ///< W/(m K)
   double spall = std::numeric_limits<double>::infinity();  ///< Pa, infinite where it cannot fail
@@ -105,10 +109,16 @@ struct ThermalState {
   bool failed = false;              ///< spalled: what has opened is not solid
 };
 
-/// Temperature, K. paper: T_r(V) + (W_p + conducted heat)/c_v (eqs 6, 7); conserving: T_r(V) +
-/// (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. A failed particle that has
-/// opened has the volume of its solid without load. Not clamped.
-double temperature(const Material& material, Thermal thermal, const ThermalState& state);
+/// Temperature and molten share. paper: T_r(V) + (W_p + conducted heat)/c_v (eqs 6, 7); conserving:
+/// T_r(V) + (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. A failed particle that
+/// has opened has the volume of its solid without load. A material that melts holds T on its melt
+/// line while both phases are there (conserving mode only). Not clamped.
+MaterialPhase material_phase(const Material& material, Thermal thermal, const ThermalState& state);
+
+/// The temperature alone, K.
+inline double temperature(const Material& material, Thermal thermal, const ThermalState& state) {
+  return material_phase(material, thermal, state).temperature;
+}
 
 /// Longitudinal sound speed of the undisturbed material, m/s.
 double longitudinal_sound_speed(const Material& material);

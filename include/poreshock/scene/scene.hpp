@@ -147,7 +147,8 @@ struct Output {
 };
 
 struct MorphologyField {
-  std::string name;  ///< temperature, pressure, density, speed, von_mises, plastic_strain
+  std::string name;  ///< temperature, pressure, density, speed, von_mises, plastic_strain,
+                     ///< molten
   std::vector<double> thresholds{};  ///< in the unit of the field, ascending
   std::vector<double> hot_spots{};   ///< thresholds at which every hot domain is listed
   std::vector<double> quantiles{};   ///< instead of thresholds: shares of the material, 0 ... 1,
@@ -227,6 +228,12 @@ inline bool conducts_heat(const Scene& scene) {
 inline bool makes_grains(SampleKind kind) {
   return kind == SampleKind::packed_grains || kind == SampleKind::voronoi_grains ||
          kind == SampleKind::image;
+}
+
+/// True when some material melts.
+inline bool can_melt(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const MaterialParameters& m) { return m.melting != MeltingLaw::none; });
 }
 
 /// True when some material has a spall strength.

@@ -1,0 +1,173 @@
+// Melting in whole runs: behind a plane shock, after its release, strength, energy, bits.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "poreshock/particles/derived.hpp"
+#include "poreshock/run/checksum.hpp"
+#include "support/aluminium.hpp"
+#include "support/reference_shock.hpp"
+#include "support/runs.hpp"
+
+namespace poreshock::test {
+namespace {
+
+/// Overrides with which aluminium melts at a temperature (K) and takes up a latent heat (J/kg).
+std::vector<std::string> melting(double temperature, double latent) {
+  return {"material.0.melting=lindemann",
+          "material.0.melt={temperature=" + std::to_string(temperature) +
+              ", latent_heat=" + std::to_string(latent) + "}"};
+}
+const std::vector<std::string> melts = melting(933.0, 4e5);
+const std::vector<std::string> fluid = {"material.0.young=0.0", "material.0.yield=0.0",
+                                        "material.0.hardening=0.0"};
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Molten share by Lindemann's law of a solid that would be at `temperature` without melting.
+double exact_share(const reference::Solid& m, double melting_point, double latent, double volume,
+                   double temperature) {
+  const auto pressure_at_melting = [&](double v) {
+    const double heat = m.cv * (melting_point - reference::curve_temperature(m, v));
+    return reference::pressure(m, v, reference::curve_energy(m, v) + heat);
+  };
+  const double rest = reference::first_root(pressure_at_melting, m.volume(), 1.2 * m.volume());
+  const double T =
+      melting_point * std::pow(std::max(rest / volume, 1.0), 2.0 * (m.gamma - 1.0 / 3.0));
+  return m.cv * (temperature - T) / latent;
+}
+
+/// Mean molten share of the particles that started between two heights (m), and their spread.
+struct Share {
+  double mean = 0.0, least = 1e300, most = -1e300;
+};
+
+Share share_between(const Simulation<2>& sim, double low, double high) {
+  std::vector<double> molten;
+  derive_field<2>("molten", sim.particles, sim.materials, Thermal::conserving, molten);
+  const std::int64_t layer = 2 * sim.scene.domain.cells[0];
+  Share share;
+  double sums[2] = {0.0, 0.0};
+  for (std::size_t p = 0; p < molten.size(); ++p) {
+    const double start = 5e-6 * (static_cast<double>(sim.particles.id[p] / layer) + 0.5);
+    if (start < low || start > high) continue;
+    sums[0] += 1.0;
+    sums[1] += molten[p];
+    share.least = std::min(share.least, molten[p]);
+    share.most = std::max(share.most, molten[p]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  share.mean = sums[1] / sums[0];
+  return share;
+}
+
+// Aluminium that melts at 400 K is partly molten where its shocks are exact to 0.1 %. The shock
+// heats particles of one cell differently, so that shares spread; their mean counts.
+constexpr double melting_point = 400.0, height = 2.4e-3;
+
+/// A plate without strength that hit a wall, at a time.
+Simulation<2> plate(double velocity, double latent, double time) {
+  const Scene scene = scene_of(
+      porous_text(),
+      joined(joined(melting(melting_point, latent), fluid),
+             {"sample.kind=solid", "domain.size=[40e-6, 4e-3]", "sample.height=2.4e-3",
+              "loading.velocity=" + std::to_string(velocity),
+              "time.end=" + std::to_string(1e9 * time) + "e-9"}));
+  Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
+  advance_to(1000000, 0, sim);
+  return sim;
+}
+
+TEST(Melting, BehindAPlaneShock) {
+  const double velocity = 2200.0, latent = 4e5;
+  const reference::Solid solid = reference::fluid_of(reference::solid(reference::aluminium()));
+  const reference::State state = reference::hugoniot(solid, velocity);
+  const double exact = exact_share(solid, melting_point, latent, state.volume, state.temperature);
+  ASSERT_GT(exact, 0.2);
+  ASSERT_LT(exact, 0.8);
+  const Simulation<2> sim = plate(velocity, latent, 0.83 * height / state.front);
+  EXPECT_NEAR(share_between(sim, 1.0e-3, 1.8e-3).mean / exact, 1.0, 0.01);
+  EXPECT_EQ(share_between(sim, 2.2e-3, 2.4e-3).mean, 0.0);
+}
+
+TEST(Melting, AfterRelease) {
+  const double velocity = 2000.0, latent = 3.6e5;
+  const reference::Solid solid = reference::fluid_of(reference::solid(reference::aluminium()));
+  const reference::State state = reference::hugoniot(solid, velocity);
+  const reference::Released released = reference::release(solid, state);
+  const double exact = exact_share(solid, melting_point, latent, released.volume, released.temperature);
+  ASSERT_GT(exact, 0.2);
+  ASSERT_LT(exact, 0.8);
+  const Simulation<2> sim = plate(velocity, latent, height / state.front + 290e-9);
+  EXPECT_NEAR(share_between(sim, 1.25e-3, 2.1e-3).mean / exact, 1.0, 0.01);
+}
+
+TEST(Melting, LiquidBearsNoShear) {
+  const Scene scene = scene_of(porous_text(), joined(melts, {"loading.velocity=2500"}));
+  Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
+  advance_to(250, 0, sim);
+  std::vector<double> before, after, mises;
+  const auto derive = [&](const char* name, std::vector<double>& to) {
+    derive_field<2>(name, sim.particles, sim.materials, Thermal::conserving, to);
+  };
+  derive("molten", before);
+  const std::vector<std::int64_t> ids = sim.particles.id;
+  std::map<std::int64_t, double> start_of_step;
+  for (std::size_t p = 0; p < ids.size(); ++p) start_of_step[ids[p]] = before[p];
+  advance_to(251, 0, sim);
+  derive("von_mises", mises);
+  std::int64_t liquid = 0, partly = 0;
+  for (std::size_t p = 0; p < mises.size(); ++p) {
+    const auto found = start_of_step.find(sim.particles.id[p]);
+    if (found == start_of_step.end()) continue;  // from another rank
+    const double flow = 120e6 + 384e6 * sim.particles.plastic_strain[p];
+    EXPECT_LE(mises[p], (1.0 - found->second) * flow * (1.0 + 1e-6) + 1e-6 * flow);
+    liquid += found->second == 1.0 ? 1 : 0;
+    partly += found->second > 0.0 && found->second < 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(sum(liquid, MPI_COMM_WORLD), 20);
+  EXPECT_GT(sum(partly, MPI_COMM_WORLD), 20);
+}
+
+TEST(Melting, EnergyCloses) {
+  const Scene scene =
+      scene_of(porous_text(), joined(melts, {"loading.velocity=2500", "conduction.on=true",
+                                             "material.0.conductivity=237.0"}));
+  Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
+  const double before = stock(sim).total;
+  advance_to(300, 0, sim);
+  EXPECT_NEAR(stock(sim).total / before, 1.0, 1e-12);
+}
+
+TEST(Melting, SameBitsOnAnyRanks) {
+  const Scene scene = scene_of(porous_text(), joined(melts, {"loading.velocity=2500"}));
+  const auto bits = [&](int ranks) {
+    std::uint64_t result = 0;
+    on_ranks(ranks, [&](MPI_Comm part) {
+      Simulation<2> sim = start<2>(scene, part);
+      advance_to(200, 0, sim);
+      result = checksum(sim);
+    });
+    return from_rank_zero(result);
+  };
+  EXPECT_EQ(bits(size(MPI_COMM_WORLD)), bits(1));
+}
+
+TEST(Melting, BelowTheCurveASolidIsWhatItWas) {
+  // Until the first particle melts the law only takes another way to the same flow stress.
+  const std::vector<std::string> slow = {"loading.velocity=300"};
+  const auto checked = [&](const std::vector<std::string>& overrides) {
+    Simulation<2> sim = start<2>(scene_of(porous_text(), overrides), MPI_COMM_WORLD);
+    advance_to(100, 0, sim);
+    return stock(sim);
+  };
+  const HistoryRow solid = checked(slow), melting = checked(joined(melts, slow));
+  EXPECT_NEAR(melting.plastic_work / solid.plastic_work, 1.0, 1e-4);
+  EXPECT_NEAR(melting.internal / solid.internal, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace poreshock::test
