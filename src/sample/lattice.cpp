@@ -85,6 +85,10 @@ std::int64_t lattice_layers(const Scene& scene) {
   return make_lattice(scene).layers();
 }
 
+std::int64_t sample_layers(const Scene& scene) {
+  return make_lattice(scene).sample_layers;
+}
+
 std::vector<std::int32_t> sample_owners(const Scene& scene, const std::vector<Void>& voids,
                                         LatticeRange range) {
   const Lattice lattice = make_lattice(scene);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "dataset_names.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
@@ -60,6 +61,20 @@ void check_domain(const Scene& scene, Report& report) {
   }
 }
 
+void check_behind(const Scene& scene, const Side& side, const std::string& path, Report& report) {
+  if (side.behind.empty() || has_problem(report, path)) return;
+  const std::string found = "found \"" + side.behind + "\", allowed ";
+  if (!side_law(side.kind).lets_out) {
+    add_problem(path, found + "only with kind = \"free\"", report);
+  } else if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                          [&](const MaterialParameters& m) { return m.name == side.behind; })) {
+    add_problem(path, found + "the name of a [[material]]", report);
+  } else if (scene.sample.kind == SampleKind::none || may_have_contact(scene)) {
+    add_problem(path, found + "only behind a [sample] of one grain, to whose ends it is bonded",
+                report);
+  }
+}
+
 void check_side(const Side& side, const std::string& path, Report& report) {
   if (side_law(side.kind).drives) return;
   if (side.velocity != 0.0) {
@@ -80,6 +95,8 @@ void check_boundary(const Scene& scene, Report& report) {
   const Side& high = scene.boundary.high;
   check_side(low, "boundary.low", report);
   check_side(high, "boundary.high", report);
+  check_behind(scene, low, "boundary.low.behind", report);
+  check_behind(scene, high, "boundary.high.behind", report);
   if (!good(report, {"boundary.low", "boundary.high"})) return;
   const bool low_moves = low.velocity != 0.0;
   const bool high_moves = high.velocity != 0.0;

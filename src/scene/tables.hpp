@@ -32,6 +32,9 @@ void visit_side(Visitor& visitor, Side& side) {
          {"a wall only pushes, a symmetry plane also holds"});
   visitor.number("velocity", side.velocity, {any_number, "m/s", "of a wall, upwards"});
   visitor.number("friction", side.friction, {not_negative, "", "of a wall, Coulomb"});
+  visitor.text("behind", side.behind,
+               {"name of a material that continues the sample beyond a free side: waves leave into "
+                "it and do not come back"});
 }
 
 template <typename Visitor>

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "end_surfaces.hpp"
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/momentum.hpp"
+#include "poreshock/physics/transmit.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
 #include "poreshock/transfer/facing.hpp"
@@ -90,6 +92,7 @@ void update_grids(double dt, Simulation<Dim>& sim) {
     collide(dt, sim);
   }
   const Phase phase(sim.phases, PhaseName::grid_update);
+  if (sim.ends) push_ends<Dim>(*sim.ends, dt, *sim.grid, sim.ledger.nodes);
   for_each_side(sim, [&](const CellOrder&, SlabGrid& grid) {
     apply_boundaries<Dim>(sim.scene.boundary, sim.stress_settings.grid_velocity, grid, ledger);
     if (sim.body_force.squaredNorm() > 0.0) add_body_work<Dim>(sim.body_force, dt, grid, ledger);
@@ -118,6 +121,7 @@ void advance(Simulation<Dim>& sim, double dt) {
                  sim.ledger.conduction);
   }
   sum_particles(sim);
+  if (sim.ends) sum_ends(sim);
   update_grids(dt, sim);
   StepReport report;
   for_each_field(sim, [&](const CellOrder& cells, SlabGrid& grid) {

@@ -219,11 +219,11 @@ TEST(Contradictions, Morphology) {
   const std::string on = "[morphology]\nevery = 5e-9\n";
   EXPECT_EQ(problems(small_scene(on)),
             "s.toml:18:1: morphology.fields: missing, give at least one field, or every = 0");
-  EXPECT_EQ(
-      problems(small_scene(on + "fields = [\"temprature\"]\nthresholds = [310]\n")),
-      "s.toml:20:11: morphology.fields: found \"temprature\", allowed \"temperature\", "
-      "\"pressure\", \"density\", \"speed\", \"von_mises\", \"plastic_strain\" or \"molten\", did you mean "
-      "\"temperature\"?");
+  EXPECT_EQ(problems(small_scene(on + "fields = [\"temprature\"]\nthresholds = [310]\n")),
+            "s.toml:20:11: morphology.fields: found \"temprature\", allowed \"temperature\", "
+            "\"pressure\", \"density\", \"speed\", \"von_mises\", \"plastic_strain\" or "
+            "\"molten\", did you mean "
+            "\"temperature\"?");
   EXPECT_EQ(
       problems(small_scene(on + "fields = [\"speed\"]\n")),
       "s.toml:18:1: morphology.thresholds: missing, give numbers in ascending order, {from = , "

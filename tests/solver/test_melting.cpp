@@ -71,11 +71,10 @@ constexpr double melting_point = 400.0, height = 2.4e-3;
 /// A plate without strength that hit a wall, at a time.
 Simulation<2> plate(double velocity, double latent, double time) {
   const Scene scene = scene_of(
-      porous_text(),
-      joined(joined(melting(melting_point, latent), fluid),
-             {"sample.kind=solid", "domain.size=[40e-6, 4e-3]", "sample.height=2.4e-3",
-              "loading.velocity=" + std::to_string(velocity),
-              "time.end=" + std::to_string(1e9 * time) + "e-9"}));
+      porous_text(), joined(joined(melting(melting_point, latent), fluid),
+                            {"sample.kind=solid", "domain.size=[40e-6, 4e-3]",
+                             "sample.height=2.4e-3", "loading.velocity=" + std::to_string(velocity),
+                             "time.end=" + std::to_string(1e9 * time) + "e-9"}));
   Simulation<2> sim = start<2>(scene, MPI_COMM_WORLD);
   advance_to(1000000, 0, sim);
   return sim;
@@ -98,7 +97,8 @@ TEST(Melting, AfterRelease) {
   const reference::Solid solid = reference::fluid_of(reference::solid(reference::aluminium()));
   const reference::State state = reference::hugoniot(solid, velocity);
   const reference::Released released = reference::release(solid, state);
-  const double exact = exact_share(solid, melting_point, latent, released.volume, released.temperature);
+  const double exact =
+      exact_share(solid, melting_point, latent, released.volume, released.temperature);
   ASSERT_GT(exact, 0.2);
   ASSERT_LT(exact, 0.8);
   const Simulation<2> sim = plate(velocity, latent, height / state.front + 290e-9);

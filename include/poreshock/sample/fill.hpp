@@ -86,6 +86,9 @@ LatticeRange own_layers(std::int64_t layers, MPI_Comm communicator);
 /// Number of lattice layers along the shock axis: cells x particles_per_cell.
 std::int64_t lattice_layers(const Scene& scene);
 
+/// Number of those whose sites lie below the height of the sample; 0 without one.
+std::int64_t sample_layers(const Scene& scene);
+
 /// Replaces `particles` by those whose lattice layer lies in `range`, in lattice order. Sites lie
 /// at
 /// ((i + 0.5) cell / particles_per_cell); a site belongs to the last body that contains it, else to

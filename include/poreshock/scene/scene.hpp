@@ -230,6 +230,11 @@ inline bool makes_grains(SampleKind kind) {
          kind == SampleKind::image;
 }
 
+/// True when waves leave the sample into material behind one of its ends.
+inline bool has_ends(const Scene& scene) {
+  return !scene.boundary.low.behind.empty() || !scene.boundary.high.behind.empty();
+}
+
 /// True when some material melts.
 inline bool can_melt(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),

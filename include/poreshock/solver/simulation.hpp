@@ -42,6 +42,7 @@ struct Simulation {
   GrainFields grain_fields;        ///< only used where grains of two colours exist
   std::unique_ptr<SlabGrid> heat;  ///< only with heat conduction
   HeatFlow<Dim> heat_flow;         ///< empty without heat conduction
+  std::unique_ptr<SlabGrid> ends;  ///< only with material behind an end of the sample
   double conduction_limit = 0.0;   ///< s, infinite without heat conduction
   PhaseTable phases;
   WorkMeter work;

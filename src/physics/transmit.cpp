@@ -1,0 +1,52 @@
+#include "poreshock/physics/transmit.hpp"
+
+#include <cmath>
+
+#include "poreshock/transfer/node_lanes.hpp"
+
+namespace poreshock {
+
+Backing make_backing(const MaterialParameters& p) {
+  Backing backing{p.density, p.c0, p.lambda, 0.0, 0.0};
+  const double shear = p.young / (2.0 * (1.0 + p.poisson));
+  const double longitudinal = std::sqrt(p.c0 * p.c0 + 4.0 / 3.0 * shear / p.density);
+  backing.shear_impedance = p.density * (longitudinal - p.c0);
+  double yield = p.yield;
+  if (p.strength == StrengthModel::johnson_cook) yield = p.johnson_cook.yield;
+  if (p.strength == StrengthModel::steinberg_guinan) yield = p.steinberg_guinan.yield;
+  backing.strength = 2.0 / 3.0 * yield;
+  return backing;
+}
+
+double backing_stress(const Backing& b, double w) {
+  const double size = w < 0.0 ? -w : w;
+  const double elastic = b.shear_impedance * size;
+  const double deviator = elastic < b.strength ? elastic : b.strength;
+  const double steep = w > 0.0 ? b.lambda * w : 0.0;
+  return b.density * w * (b.c0 + steep) + (w < 0.0 ? -deviator : deviator);
+}
+
+template <int Dim>
+void push_ends(const SlabGrid& ends, double dt, SlabGrid& grid, NodeLedger& ledger) {
+  using Motion = MotionLane<Dim>;
+  constexpr int axis = Dim - 1;
+  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+    Lanes* nodes = grid.row(row);
+    const Lanes* forces = ends.row(row);
+    for (int i = 0; i < grid.shape().row_size; ++i) {
+      const double mass = nodes[i][Motion::mass], impulse = dt * forces[i][end_force];
+      if (!(mass > 0.0) || impulse == 0.0) continue;
+      nodes[i][Motion::end_velocity + axis] += impulse / mass;
+      if (row >= grid.last_row()) continue;
+      const double middle =
+          0.5 * (nodes[i][Motion::start_velocity + axis] + nodes[i][Motion::end_velocity + axis]);
+      ledger.wall_impulse[axis] += quantise(impulse, ledger.inverse_momentum_quantum);
+      ledger.wall_work += quantise(impulse * middle, ledger.inverse_energy_quantum);
+    }
+  }
+}
+
+template void push_ends<2>(const SlabGrid&, double, SlabGrid&, NodeLedger&);
+template void push_ends<3>(const SlabGrid&, double, SlabGrid&, NodeLedger&);
+
+}  // namespace poreshock
