@@ -42,13 +42,19 @@ void sum_ends(Simulation<Dim>& sim) {
         [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
           const std::int64_t at = sim.particles.id[p] / layer;
           const double speed = sim.particles.velocity[Dim - 1][p] - rest;
-          double force = 0.0;
-          if (low && at == 0) force += area * backing_stress(*low, -speed);
-          if (high && at == top) force -= area * backing_stress(*high, speed);
-          if (force == 0.0) return;
-          for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-            sums[n][end_force] += force * node_weight(stencil, n);
-          }
+          const bool below = low && at == 0, above = high && at == top;
+          if (!below && !above) return;
+          // The end lies half the thickness of the particle beyond its place.
+          const double thickness = sim.particles.mass[p] / (sim.particles.density[p] * area);
+          const double beyond = 0.5 * thickness / scene.domain.cell;
+          const auto push = [&](double force, double outward) {
+            for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
+              const double slope = node_slope(stencil, n, Dim - 1);
+              sums[n][end_force] += force * (node_weight(stencil, n) + outward * beyond * slope);
+            }
+          };
+          if (below) push(area * backing_stress(*low, -speed), -1.0);
+          if (above) push(-area * backing_stress(*high, speed), 1.0);
         },
         *sim.ends);
   });
