@@ -107,7 +107,7 @@ class Snapshots(program.ProgramTest):
                     "run/morphology.h5:/path/of/the/array", "analyze", "run/morphology.h5", "--thresholds", "1,2", ranks=2)
         self.refuse('--thresholds: found "3,2", allowed FROM:TO:STEP or A,B,C: 1 to 65534 numbers in ascending order, in '
                     "the unit of the field", "analyze", self.snapshots[0], "--thresholds", "3,2")
-        self.refuse('unknown field "heat": allowed are temperature, pressure, density, speed, von_mises, plastic_strain',
+        self.refuse('unknown field "heat": allowed are temperature, pressure, density, speed, von_mises, plastic_strain, molten',
                     "analyze", self.snapshots[0], "--thresholds", "3", "--field", "heat")
         self.refuse(f"{self.snapshots[0]}: another of the files has the same record number, 0; analyse one run at a time",
                     "analyze", self.snapshots[0], self.snapshots[0], "--thresholds", "310")
