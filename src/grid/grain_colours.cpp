@@ -6,6 +6,7 @@
 #include <ranges>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -20,48 +21,83 @@ void keep_each_once(std::vector<Item>& items) {
   items.resize(static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin()));
 }
 
-/// Cells of the rows within `reach` of a slab end that another rank lies beyond.
-std::vector<GrainCell> cells_at_ends(std::span<const GrainCell> cells, int reach,
-                                     const SlabGrid& grid) {
-  std::vector<GrainCell> ends;
+/// Neighbouring stencil cells along x that hold particles of a grain.
+struct CellRun {
+  std::int32_t row, y, first, last, grain;
+};
+
+/// Runs of the cells, line after line of cells, in a line by their first one.
+std::vector<CellRun> runs_of(std::span<const GrainCell> cells, const GridShape& shape) {
+  std::vector<CellRun> runs;
+  std::size_t line = 0;  // where its runs begin
   for (const GrainCell& c : cells) {
-    const bool low = grid.first_row() > 0 && c.row < grid.first_row() + reach;
-    const bool high = grid.last_row() < grid.shape().rows && c.row >= grid.last_row() - reach;
-    if (low || high) ends.push_back(c);
+    const int x = c.lateral % shape.nodes[0], y = c.lateral / shape.nodes[0];
+    if (runs.empty() || runs.back().row != c.row || runs.back().y != y) line = runs.size();
+    std::size_t k = runs.size();
+    // A run that may go on is one of the last: others are of grains that have ended.
+    while (k > line && !(runs[k - 1].grain == c.grain && runs[k - 1].last + 1 >= x)) --k;
+    if (k > line) {
+      runs[k - 1].last = x;
+    } else {
+      runs.push_back({c.row, y, x, x, c.grain});
+    }
+  }
+  return runs;
+}
+
+/// Runs of the rows within `reach` of a slab end that another rank lies beyond.
+std::vector<CellRun> runs_at_ends(std::span<const CellRun> runs, int reach, const SlabGrid& grid) {
+  std::vector<CellRun> ends;
+  for (const CellRun& r : runs) {
+    const bool low = grid.first_row() > 0 && r.row < grid.first_row() + reach;
+    const bool high = grid.last_row() < grid.shape().rows && r.row >= grid.last_row() - reach;
+    if (low || high) ends.push_back(r);
   }
   return ends;
 }
 
-/// Cells by row and lateral index, with their grains.
-class CellMap {
+/// Runs by their lines of cells.
+class RunMap {
  public:
-  CellMap(std::vector<GrainCell> cells, const GridShape& shape)
-      : cells_(std::move(cells)), shape_(shape) {
-    keep_each_once(cells_);
-    if (cells_.empty()) return;
-    first_row_ = cells_.front().row;
-    rows_ = cells_.back().row - first_row_ + 1;
-    start_.assign(static_cast<std::size_t>(rows_) * shape.row_size + 1, 0);
-    for (const GrainCell& c : cells_) ++start_[place(c.row, c.lateral) + 1];
+  RunMap(std::vector<CellRun> runs, const GridShape& shape)
+      : runs_(std::move(runs)), lines_(shape.row_size / shape.nodes[0]) {
+    std::sort(runs_.begin(), runs_.end(), [](const CellRun& a, const CellRun& b) {
+      return std::tie(a.row, a.y, a.first, a.grain) < std::tie(b.row, b.y, b.first, b.grain);
+    });
+    if (runs_.empty()) return;
+    first_row_ = runs_.front().row;
+    rows_ = runs_.back().row - first_row_ + 1;
+    start_.assign(static_cast<std::size_t>(rows_) * lines_ + 1, 0);
+    for (const CellRun& r : runs_) {
+      ++start_[place(r.row, r.y) + 1];
+      longest_ = std::max(longest_, r.last - r.first);
+    }
     for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
   }
 
-  const std::vector<GrainCell>& cells() const { return cells_; }
+  const std::vector<CellRun>& runs() const { return runs_; }
 
-  std::span<const GrainCell> at(int row, int lateral) const {
-    if (row < first_row_ || row >= first_row_ + rows_) return {};
-    const std::size_t at = place(row, lateral);
-    return std::span<const GrainCell>(cells_).subspan(start_[at], start_[at + 1] - start_[at]);
+  /// Calls visit(run) for those of a line that overlap [first, last].
+  template <class Visit>
+  void for_each_in(int row, int y, int first, int last, Visit&& visit) const {
+    if (row < first_row_ || row >= first_row_ + rows_ || y >= lines_) return;
+    const auto begin = runs_.begin() + static_cast<std::ptrdiff_t>(start_[place(row, y)]);
+    const auto end = runs_.begin() + static_cast<std::ptrdiff_t>(start_[place(row, y) + 1]);
+    const auto before = [](const CellRun& r, int x) { return r.first < x; };
+    for (auto r = std::lower_bound(begin, end, first - longest_, before);
+         r != end && r->first <= last; ++r) {
+      if (r->last >= first) visit(*r);
+    }
   }
 
  private:
-  std::size_t place(int row, int lateral) const {
-    return static_cast<std::size_t>(row - first_row_) * shape_.row_size + lateral;
+  std::size_t place(int row, int y) const {
+    return static_cast<std::size_t>(row - first_row_) * lines_ + y;
   }
 
-  std::vector<GrainCell> cells_;
-  const GridShape& shape_;
-  int first_row_ = 0, rows_ = 0;
+  std::vector<CellRun> runs_;
+  int lines_;
+  int first_row_ = 0, rows_ = 0, longest_ = 0;
   std::vector<std::size_t> start_;
 };
 
@@ -74,7 +110,7 @@ void join(std::int32_t a, std::int32_t b, Neighbours& near) {
   if (std::find(list.begin(), list.end(), other) == list.end()) list.push_back(other);
 }
 
-/// Lateral indices within reach of one along an axis, each once.
+/// Indices within reach of one along y, each once.
 void near_indices(int index, int reach, int nodes, bool periodic, std::vector<int>& result) {
   result.clear();
   const int cells = nodes - 3;
@@ -95,28 +131,31 @@ void near_indices(int index, int reach, int nodes, bool periodic, std::vector<in
 std::vector<GrainPair> near_grains(std::span<const GrainCell> cells, int reach,
                                    const SlabGrid& grid) {
   const GridShape& shape = grid.shape();
-  std::vector<GrainCell> all = gather_all(cells_at_ends(cells, reach, grid), grid.communicator());
-  std::erase_if(all, [&](const GrainCell& c) {
-    return c.row < grid.first_row() - reach || c.row >= grid.last_row() + reach;
+  const std::vector<CellRun> own = runs_of(cells, shape);
+  std::vector<CellRun> all = gather_all(runs_at_ends(own, reach, grid), grid.communicator());
+  std::erase_if(all, [&](const CellRun& r) {
+    return r.row < grid.first_row() - reach || r.row >= grid.last_row() + reach ||
+           (r.row >= grid.first_row() && r.row < grid.last_row());
   });
-  all.insert(all.end(), cells.begin(), cells.end());
-  const CellMap map(std::move(all), shape);
+  all.insert(all.end(), own.begin(), own.end());
+  const RunMap map(std::move(all), shape);
   std::int32_t most = -1;
-  for (const GrainCell& c : map.cells()) most = std::max(most, c.grain);
+  for (const CellRun& r : map.runs()) most = std::max(most, r.grain);
   Neighbours near(static_cast<std::size_t>(most + 1));
-  std::vector<int> xs, ys;
-  ys.push_back(0);
-  for (const GrainCell& c : map.cells()) {
-    near_indices(c.lateral % shape.nodes[0], reach, shape.nodes[0], shape.periodic[0], xs);
-    if (shape.dimension == 3) {
-      near_indices(c.lateral / shape.nodes[0], reach, shape.nodes[1], shape.periodic[1], ys);
-    }
-    for (int row = c.row; row <= c.row + reach; ++row) {
+  std::vector<int> ys;
+  // Stencil cells 0 and `around` are one and the same across a periodic side.
+  const int around = shape.nodes[0] - 3;
+  for (const CellRun& r : map.runs()) {
+    near_indices(r.y, shape.dimension == 3 ? reach : 0, shape.nodes[1],
+                 shape.dimension == 3 && shape.periodic[1], ys);
+    for (int row = r.row; row <= r.row + reach; ++row) {
       for (const int y : ys) {
-        for (const int x : xs) {
-          for (const GrainCell& other : map.at(row, y * shape.nodes[0] + x)) {
-            if (other.grain != c.grain) join(c.grain, other.grain, near);
-          }
+        for (int turn = -1; turn <= 1; ++turn) {
+          if (turn != 0 && !shape.periodic[0]) continue;
+          map.for_each_in(row, y, r.first - reach + turn * around, r.last + reach + turn * around,
+                          [&](const CellRun& other) {
+                            if (other.grain != r.grain) join(r.grain, other.grain, near);
+                          });
         }
       }
     }

@@ -179,17 +179,6 @@ void book_impact(std::span<NodeGrain<Dim>> grains, const Motion<Dim>& motion,
   report.impact_heat = heat - report.friction_heat;
 }
 
-template <int Dim>
-void write_motion(double kept, const Motion<Dim>& motion, std::span<NodeGrain<Dim>> grains) {
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    NodeGrain<Dim>& grain = grains[g];
-    const Vector<Dim> taken = grain.start - motion.start[g];
-    grain.later_work = (motion.end[g] - grain.end + taken) * 0.5 + taken * kept;
-    grain.start = motion.start[g];
-    grain.end = motion.end[g];
-  }
-}
-
 /// All pairs of a node that have a normal and touch. `normal`: of two grains, where known.
 template <int Dim>
 int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
@@ -254,7 +243,10 @@ ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSet
     rub_pairs<Dim>(grains, pairs, space, motion, report);
   }
   if (settings.mirrored) book_impact<Dim>(grains, motion, report);
-  write_motion<Dim>(settings.kept, motion, grains);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    grains[g].start = motion.start[g];
+    grains[g].end = motion.end[g];
+  }
   return report;
 }
 

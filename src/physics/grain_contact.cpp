@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "node_entries.hpp"
+#include "poreshock/physics/boundary.hpp"
 
 namespace poreshock {
 
@@ -42,7 +43,7 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
   using Motion = MotionLane<Dim>;
   using Collision = CollisionLane<Dim>;
   for (int a = 0; a < Dim; ++a) {
-    surface[Collision::later_work + a] = grain.later_work[a];
+    surface[Collision::change + a] = grain.end[a] - motion[Motion::end_velocity + a];
     surface[Collision::end + a] = grain.end[a];
     motion[Motion::start_velocity + a] = grain.start[a];
     motion[Motion::end_velocity + a] = grain.end[a];
@@ -111,56 +112,56 @@ std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass
 template <int Dim>
 ContactSummary collide_grains(const std::vector<ContactField>& fields,
                               const std::vector<bool>& shared, const Scene& scene,
-                              ContactSettings settings, const FaceTable& faces,
+                              const ContactSettings& settings, const FaceTable& faces,
                               const NodePoints<Dim>& points, NodeLedger& ledger) {
   const SlabGrid& grid = *fields.front().motion;
   ContactSummary summary;
-  for_each_shared(grid, shared, scene, settings,
-                  [&](int row, int i, std::size_t number, const ContactSettings& here) {
-                    collide_node<Dim>(fields, row, i, row < grid.last_row(), here, faces,
-                                      points_of(points, number), ledger, summary);
-                  });
+  for_each_shared(grid, shared, [&](int row, int i, std::size_t number) {
+    ContactSettings here = settings;
+    here.capacity = node_capacity(grid.shape(), scene.transfer, row, i);
+    here.mirrored = is_mirrored(scene.boundary, grid.shape(), row, i);
+    if (here.mirrored) here.kept = 0.0;
+    collide_node<Dim>(fields, row, i, row < grid.last_row(), here, faces, points_of(points, number),
+                      ledger, summary);
+  });
   return summary;
 }
 
 template <int Dim>
 void settle_contact_heat(const std::vector<ContactField>& fields, const std::vector<bool>& shared,
-                         NodeLedger& ledger) {
+                         const Boundary& boundary, NodeLedger& ledger) {
   using Motion = MotionLane<Dim>;
   using Collision = CollisionLane<Dim>;
   const SlabGrid& grid = *fields.front().motion;
-  const int width = grid.shape().row_size;
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * width;
-    for (int i = 0; i < width; ++i) {
-      if (!shared[at + i]) continue;
-      for (const ContactField& field : fields) {
-        Lanes& motion = field.motion->row(row)[i];
-        const Lanes& collision = field.surface->row(row)[i];
-        if (!(motion[Motion::mass] > 0.0)) continue;
-        double heat = 0.0;
-        for (int a = 0; a < Dim; ++a) {
-          const double moved = motion[Motion::end_velocity + a] - collision[Collision::end + a];
-          heat -= collision[Collision::later_work + a] * moved;
-        }
-        if (heat == 0.0) continue;
-        motion[Motion::heat] += heat;
-        if (row >= grid.last_row()) continue;
-        ledger.contact_heat += quantise(motion[Motion::mass] * heat, ledger.inverse_energy_quantum);
+  for_each_shared(grid, shared, [&](int row, int i, std::size_t) {
+    if (!is_mirrored(boundary, grid.shape(), row, i)) return;
+    for (const ContactField& field : fields) {
+      Lanes& motion = field.motion->row(row)[i];
+      const Lanes& collision = field.surface->row(row)[i];
+      if (!(motion[Motion::mass] > 0.0)) continue;
+      double heat = 0.0;
+      for (int a = 0; a < Dim; ++a) {
+        const double moved = motion[Motion::end_velocity + a] - collision[Collision::end + a];
+        heat -= collision[Collision::change + a] * (0.5 * moved);
       }
+      motion[Motion::heat] += heat;
+      if (row >= grid.last_row()) continue;
+      ledger.contact_heat += quantise(motion[Motion::mass] * heat, ledger.inverse_energy_quantum);
     }
-  }
+  });
 }
 
 template void settle_contact_heat<2>(const std::vector<ContactField>&, const std::vector<bool>&,
-                                     NodeLedger&);
+                                     const Boundary&, NodeLedger&);
 template void settle_contact_heat<3>(const std::vector<ContactField>&, const std::vector<bool>&,
-                                     NodeLedger&);
+                                     const Boundary&, NodeLedger&);
 template ContactSummary collide_grains<2>(const std::vector<ContactField>&,
-                                          const std::vector<bool>&, const Scene&, ContactSettings,
-                                          const FaceTable&, const NodePoints<2>&, NodeLedger&);
+                                          const std::vector<bool>&, const Scene&,
+                                          const ContactSettings&, const FaceTable&,
+                                          const NodePoints<2>&, NodeLedger&);
 template ContactSummary collide_grains<3>(const std::vector<ContactField>&,
-                                          const std::vector<bool>&, const Scene&, ContactSettings,
-                                          const FaceTable&, const NodePoints<3>&, NodeLedger&);
+                                          const std::vector<bool>&, const Scene&,
+                                          const ContactSettings&, const FaceTable&,
+                                          const NodePoints<3>&, NodeLedger&);
 
 }  // namespace poreshock

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/grain_contact.hpp"
 #include "poreshock/physics/parting_plane.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
@@ -72,20 +71,14 @@ int read_entries(const std::vector<ContactField>& fields, int row, int node,
   return count;
 }
 
-/// Calls visit(row, node, its number, settings of the node) for all shared nodes.
+/// Calls visit(row, node, its number) for all shared nodes.
 template <class Visit>
-void for_each_shared(const SlabGrid& grid, const std::vector<bool>& shared, const Scene& scene,
-                     const ContactSettings& settings, Visit&& visit) {
-  const GridShape& shape = grid.shape();
+void for_each_shared(const SlabGrid& grid, const std::vector<bool>& shared, Visit&& visit) {
+  const int width = grid.shape().row_size;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
-    for (int i = 0; i < shape.row_size; ++i) {
-      if (!shared[at + i]) continue;
-      ContactSettings here = settings;
-      here.capacity = node_capacity(shape, scene.transfer, row, i);
-      here.mirrored = is_mirrored(scene.boundary, shape, row, i);
-      if (here.mirrored) here.kept = 0.0;
-      visit(row, i, at + i, here);
+    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * width;
+    for (int i = 0; i < width; ++i) {
+      if (shared[at + i]) visit(row, i, at + i);
     }
   }
 }

@@ -213,7 +213,7 @@ void finish_contact(Simulation<Dim>& sim) {
   const GrainFields& all = sim.grain_fields;
   if (all.fields.empty()) return;
   const std::vector<ContactField> fields = contact_fields(all);
-  settle_contact_heat<Dim>(fields, all.shared, sim.ledger.nodes);
+  settle_contact_heat<Dim>(fields, all.shared, sim.scene.boundary, sim.ledger.nodes);
 }
 
 template <int Dim>

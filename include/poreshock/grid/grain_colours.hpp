@@ -30,8 +30,9 @@ using GrainPair = std::pair<std::int32_t, std::int32_t>;
 
 /// Pairs of different grains with stencil cells at most `reach` apart along every axis, periodic
 /// sides respected; ascending, each once, the same on every rank. `cells`: those of this rank,
-/// ascending. Work grows with the cells times reach^Dim; each rank sends the cells within `reach`
-/// rows of its slab's ends to all. Collective.
+/// ascending. Work grows with the cells, and with the lines of cells that cross a grain times
+/// reach^(Dim-1); each rank sends what lies within `reach` rows of its slab's ends to all.
+/// Collective.
 std::vector<GrainPair> near_grains(std::span<const GrainCell> cells, int reach,
                                    const SlabGrid& grid);
 

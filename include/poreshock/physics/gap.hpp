@@ -23,9 +23,6 @@ struct NodeGrain {
   Vector<Dim> place = Vector<Dim>::Zero();     ///< m, volume-weighted mean place of its particles
   double strain = 0.0;                         ///< plastic, volume-weighted mean of its particles
   double heat = 0.0;                           ///< J, set by contact
-  /// m/s, set by contact: a later change of the end velocity takes its product with this from the
-  /// heat, J/kg
-  Vector<Dim> later_work = Vector<Dim>::Zero();
 };
 
 /// Slope of the filled share of a node against the place of a flat face, by that share: the shape

@@ -39,18 +39,19 @@ std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass
 /// SurfaceLane gives way to CollisionLane there. Before: motion and surfaces complete, periodic
 /// images not yet filled. The same happens on every rank that holds a node. Fields are taken in the
 /// order of their masses and velocities, so that the numbers of the fields do not matter.
-/// settings.capacity is set here. `points`: the particles around the nodes, for normals from the
-/// planes that part them; without any they come from the gradients. Not collective.
+/// settings.capacity and mirrored are set here. `points`: the particles around the nodes, for
+/// normals from the planes that part them; without any they come from the gradients. Not
+/// collective.
 template <int Dim>
 ContactSummary collide_grains(const std::vector<ContactField>& fields,
                               const std::vector<bool>& shared, const Scene& scene,
-                              ContactSettings settings, const FaceTable& faces,
+                              const ContactSettings& settings, const FaceTable& faces,
                               const NodePoints<Dim>& points, NodeLedger& ledger);
 
 /// After the boundaries: where they changed the velocities once more, contact impulses did other
 /// work than collide_grains knew; the difference goes to the heat. Not collective.
 template <int Dim>
 void settle_contact_heat(const std::vector<ContactField>& fields, const std::vector<bool>& shared,
-                         NodeLedger& ledger);
+                         const Boundary& boundary, NodeLedger& ledger);
 
 }  // namespace poreshock

@@ -33,13 +33,11 @@ struct SurfaceLane {
   static constexpr int facing = 2 + 2 * Dim;  ///< m^Dim, sum of V N times facing; plane strain only
 };
 
-/// What contact did to the grain of one velocity field at a shared node.
+/// What contact did to the grain of one velocity field at a shared node beside a wall.
 template <int Dim>
 struct CollisionLane {
-  /// m/s, whose product with a later change of the end velocity is missing from the heat; Dim
-  /// numbers
-  static constexpr int later_work = 0;
-  static constexpr int end = Dim;  ///< m/s, end velocity after it; Dim numbers
+  static constexpr int change = 0;  ///< m/s, of the end velocity; Dim numbers
+  static constexpr int end = Dim;   ///< m/s, end velocity after it; Dim numbers
 };
 
 }  // namespace poreshock
