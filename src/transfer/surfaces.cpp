@@ -1,24 +1,57 @@
 #include "poreshock/transfer/surfaces.hpp"
 
+#include "poreshock/transfer/blocks.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
-#include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {
 
 namespace {
 
-/// SurfaceLane of one particle at one node. Built at once: writing single lanes would go through
-/// memory.
+/// Lanes that a scene needs: those of facing come last.
 template <int Dim>
-inline Lanes surface_lanes(double volume, const std::array<double, Dim>& slope,
-                           const std::array<double, Dim>& place, double strain,
-                           const std::array<double, Dim>& facing) {
-  if constexpr (Dim == 2) {
-    return Lanes{volume,   slope[0], slope[1],           place[0],
-                 place[1], strain,   volume * facing[0], volume * facing[1]};
-  } else {
-    return Lanes{volume, slope[0], slope[1], slope[2], place[0], place[1], place[2], strain};
+constexpr int plain_lanes = SurfaceLane<Dim>::strain + 1;
+
+/// SurfaceLane of one particle. `volume` is divided by scale^Dim.
+template <int Dim, int Count, class Spline>
+inline void add_surface(const Particles<Dim>& particles, std::uint32_t p, double volume,
+                        double cell, const BlockWeights<Dim, Spline>& w,
+                        Lanes (&sums)[Count][stencil_blocks<Dim, Spline>]) {
+  using Surface = SurfaceLane<Dim>;
+  const double per_cell = volume / cell, strain = particles.plastic_strain[p];
+  for (int b = 0; b < stencil_blocks<Dim, Spline>; ++b) {
+    const Lanes share = volume * value_in<Dim, Spline>(w, b);
+    sums[Surface::volume][b] += share;
+    sums[Surface::strain][b] = fused(strain, share, sums[Surface::strain][b]);
+    const Lanes way = -cell * share;
+    sums[Surface::place][b] += way * along_lines(w.offset);
+    sums[Surface::place + 1][b] += way * across_lines<Spline>(w.offset, b);
+    if constexpr (Dim == 3) {
+      sums[Surface::place + 2][b] += way * across_planes<Spline>(w.offset, b);
+    }
+    for (int a = 0; a < Dim; ++a) {
+      sums[Surface::gradient + a][b] =
+          fused(per_cell, slope_in<Dim, Spline>(w, a, b), sums[Surface::gradient + a][b]);
+    }
+    if constexpr (Count > plain_lanes<Dim>) {
+      for (int a = 0; a < Dim; ++a) {
+        sums[Surface::facing + a][b] =
+            fused(particles.facing[a][p], share, sums[Surface::facing + a][b]);
+      }
+    }
   }
+}
+
+template <int Dim, int Count, class Spline>
+void scatter_lanes(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
+                   SlabGrid& surfaces) {
+  const double cell = surfaces.shape().cell;
+  scatter_blocks<Dim, Count>(
+      spline, particles, cells,
+      [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
+        const double volume = unscaled<Dim, Spline>(particles.mass[p] / particles.density[p]);
+        add_surface<Dim, Count, Spline>(particles, p, volume, cell, w, sums);
+      },
+      surfaces);
 }
 
 }  // namespace
@@ -26,30 +59,13 @@ inline Lanes surface_lanes(double volume, const std::array<double, Dim>& slope,
 template <int Dim>
 void scatter_surfaces(const Particles<Dim>& particles, const CellOrder& cells,
                       const Transfer& transfer, SlabGrid& surfaces) {
-  const double cell = surfaces.shape().cell;
-  const bool faces = particles.options.facing;
-  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
-    constexpr int w = Spline::width;
-    scatter<Dim>(
-        spline, particles, cells,
-        [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
-          const double volume = particles.mass[p] / particles.density[p];
-          const double per_cell = volume / cell;
-          const double strain = particles.plastic_strain[p];
-          std::array<double, Dim> facing{};
-          for (int a = 0; a < Dim; ++a) facing[a] = faces ? particles.facing[a][p] : 0.0;
-          for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-            const double share = volume * node_weight<Dim, Spline>(stencil, n);
-            const int index[3] = {n % w, Dim == 3 ? (n / w) % w : n / w, n / (w * w)};
-            std::array<double, Dim> slope, place;
-            for (int a = 0; a < Dim; ++a) {
-              slope[a] = per_cell * node_slope<Dim, Spline>(stencil, n, a);
-              place[a] = -share * stencil.axis[a].offset[index[a]] * cell;
-            }
-            sums[n] += surface_lanes<Dim>(share, slope, place, share * strain, facing);
-          }
-        },
-        surfaces);
+  with_shape(transfer, [&](const auto& spline) {
+    if (Dim == 2 && particles.options.facing) {
+      constexpr int all = Dim == 2 ? SurfaceLane<2>::facing + 2 : plain_lanes<Dim>;
+      scatter_lanes<Dim, all>(spline, particles, cells, surfaces);
+    } else {
+      scatter_lanes<Dim, plain_lanes<Dim>>(spline, particles, cells, surfaces);
+    }
   });
 }
 
