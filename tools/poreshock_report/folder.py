@@ -83,7 +83,7 @@ HEATS = ("plastic_work", "viscous_heat", "filter_heat", "wall_heat", "contact_he
 
 
 def numerical_share(columns):
-    """Heat of the transfers and of impulses between grains without friction as a share of all heat, row by row of a
+    """Heat of the transfers and of impulses of grains beside walls as a share of all heat, row by row of a
     history; NaN where there is no heat yet."""
     heat = sum(columns[name] for name in HEATS)
     numerical = columns["filter_heat"] + columns["contact_heat"]
