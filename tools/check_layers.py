@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-BASE = ("core", "material", "scene", "particles", "grid")  # each may include those before it
+BASE = ("core", "files", "material", "scene", "particles", "grid")  # each may include those before it
 MAY_INCLUDE = {layer: set(BASE[:i]) for i, layer in enumerate(BASE)}
 MAY_INCLUDE |= {
     "sample": set(BASE),
@@ -22,7 +22,7 @@ MAY_INCLUDE["app"] = set(MAY_INCLUDE) - {"app"}
 
 LIBRARIES = (  # header of a library, the paths that may include it, their name for the message
     (r"toml\+\+/|toml\.hpp", r"src/scene/", "src/scene"),
-    (r"hdf5|H5[A-Z]\w*\.h|H5public\.h", r"(src|include/poreshock)/output/", "the output layer"),
+    (r"hdf5|H5[A-Z]\w*\.h|H5public\.h", r"(src|include/poreshock)/files/", "the files layer"),
     (r"metis\.h", r"src/grid/partition\.cpp$", "src/grid/partition.cpp"),
     (r"CLI/", r"(src|include/poreshock)/app/", "the app layer"),
 )

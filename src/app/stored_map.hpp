@@ -7,9 +7,9 @@
 
 #include "poreshock/app/analyze.hpp"
 #include "poreshock/core/tensor.hpp"
+#include "poreshock/files/array_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/morphology/pixel_map.hpp"
-#include "poreshock/output/array_file.hpp"
-#include "poreshock/output/hdf5_file.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/scene/scene.hpp"
 

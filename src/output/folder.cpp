@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/posix_file.hpp"
 #include "poreshock/scene/read_scene.hpp"
 
 namespace poreshock {

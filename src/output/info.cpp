@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 #include "poreshock/output/history.hpp"
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
 
 namespace poreshock {
 

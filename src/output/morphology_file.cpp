@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 #include "record_tables.hpp"
 
 namespace poreshock {

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "poreshock/core/error.hpp"
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 #include "poreshock/output/row_file.hpp"
 #include "root_attributes.hpp"
 

@@ -1,6 +1,6 @@
 #include "poreshock/output/profile_file.hpp"
 
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
 #include "record_tables.hpp"
 
 namespace poreshock {

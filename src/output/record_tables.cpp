@@ -6,9 +6,9 @@
 #include <set>
 
 #include "poreshock/core/error.hpp"
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 #include "root_attributes.hpp"
 
 namespace poreshock {

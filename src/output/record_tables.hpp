@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/output/record_stamp.hpp"
 
 namespace poreshock {

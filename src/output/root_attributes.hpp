@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 
 namespace poreshock {
 

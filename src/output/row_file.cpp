@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "poreshock/core/error.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
 
 namespace poreshock {
 

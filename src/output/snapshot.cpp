@@ -5,8 +5,8 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 #include "poreshock/particles/derived.hpp"
 #include "root_attributes.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 

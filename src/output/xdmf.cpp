@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 

@@ -2,7 +2,7 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
 #include "poreshock/run/probes.hpp"
 #include "poreshock/run/trace.hpp"
 

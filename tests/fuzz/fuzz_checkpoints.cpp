@@ -3,7 +3,7 @@
 
 #include "fuzz/mutate.hpp"
 #include "output/support.hpp"
-#include "poreshock/output/block_hash.hpp"
+#include "poreshock/files/block_hash.hpp"
 #include "poreshock/output/checkpoint.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/simulation.hpp"

@@ -5,7 +5,7 @@
 #include "fuzz/mutate.hpp"
 #include "output/support.hpp"
 #include "poreshock/core/error.hpp"
-#include "poreshock/output/array_file.hpp"
+#include "poreshock/files/array_file.hpp"
 #include "sample/filled.hpp"
 #include "sample/image.hpp"
 #include "sample/image_files.hpp"

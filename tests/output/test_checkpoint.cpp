@@ -4,9 +4,9 @@
 #include <array>
 
 #include "output/support.hpp"
-#include "poreshock/output/block_hash.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/output/checkpoint.hpp"
-#include "poreshock/output/hdf5_file.hpp"
 
 namespace poreshock {
 namespace {

@@ -2,8 +2,8 @@
 #include "poreshock/output/folder.hpp"
 
 #include "output/support.hpp"
+#include "poreshock/files/posix_file.hpp"
 #include "poreshock/output/info.hpp"
-#include "poreshock/output/posix_file.hpp"
 #include "poreshock/output/timings.hpp"
 #include "poreshock/scene/read_scene.hpp"
 

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "output/support.hpp"
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 namespace {

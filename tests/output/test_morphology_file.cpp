@@ -2,8 +2,8 @@
 #include "poreshock/output/morphology_file.hpp"
 
 #include "output/support.hpp"
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 
 namespace poreshock {
 namespace {

@@ -1,8 +1,8 @@
 // Profile records: one small file each, merged in order at the end.
 #include "output/support.hpp"
-#include "poreshock/output/block_hash.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/output/folder.hpp"
-#include "poreshock/output/hdf5_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 
 namespace poreshock {

@@ -6,8 +6,8 @@
 
 #include "output/scenes.hpp"
 #include "output/support.hpp"
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/output/info.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"

@@ -39,8 +39,8 @@ class Layers(unittest.TestCase):
     def test_libraries_stay_in_their_layer(self):
         for path, include, where in (("src/app/main.cpp", "<toml++/toml.h>", "src/scene"),
                                      ("include/poreshock/scene/read_scene.hpp", "<toml++/toml.h>", "src/scene"),
-                                     ("src/solver/ledger.cpp", "<hdf5.h>", "the output layer"),
-                                     ("src/core/phase.cpp", "<H5Ppublic.h>", "the output layer"),
+                                     ("src/solver/ledger.cpp", "<hdf5.h>", "the files layer"),
+                                     ("src/core/phase.cpp", "<H5Ppublic.h>", "the files layer"),
                                      ("src/grid/slab_grid.cpp", "<metis.h>", "src/grid/partition.cpp"),
                                      ("src/scene/read_scene.cpp", "<CLI/CLI.hpp>", "the app layer")):
             self.assertIn(f"only {where} may", self.one(path, include))
@@ -66,7 +66,7 @@ class Layers(unittest.TestCase):
         self.assertEqual(self.check({
             "include/poreshock/physics/heat.hpp": '#include "poreshock/transfer/blocks.hpp"\n',
             "src/solver/ledger.hpp": '#include "poreshock/physics/heat.hpp"\n#include <mpi.h>\n',
-            "src/output/hdf5_file.hpp": "#include <hdf5.h>\n", "src/app/main.cpp": "#include <CLI/CLI.hpp>\n",
+            "src/files/hdf5_file.hpp": "#include <hdf5.h>\n", "src/app/main.cpp": "#include <CLI/CLI.hpp>\n",
             "include/poreshock/grid/partition.hpp": "", "src/grid/partition.cpp": '#include "poreshock/grid/partition.hpp"\n#include <metis.h>\n',
             "src/scene/scene.hpp": '#include "toml_reader.hpp"\n'}), [])
 

@@ -24,7 +24,7 @@ install(FILES tools/completion.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME poreshock)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/poreshock)
-set(layers core material scene particles grid morphology output sample transfer physics solver run)
+set(layers core files material scene particles grid morphology output sample transfer physics solver run)
 list(TRANSFORM layers PREPEND poreshock_)
 foreach(target IN LISTS layers)
   string(REPLACE "poreshock_" "" name ${target})

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 

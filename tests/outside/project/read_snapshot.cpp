@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 
 int main(int argc, char** argv) {
   const poreshock::Runtime runtime(argc, argv);

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
 
 namespace poreshock {
 

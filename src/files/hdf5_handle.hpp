@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 
 namespace poreshock {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "hdf5_handle.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
 
 namespace poreshock {
 

@@ -1,4 +1,4 @@
-#include "poreshock/output/posix_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 #include "hdf5_handle.hpp"
-#include "poreshock/output/block_hash.hpp"
+#include "poreshock/files/block_hash.hpp"
 
 namespace poreshock {
 

@@ -1,4 +1,4 @@
-#include "poreshock/output/block_hash.hpp"
+#include "poreshock/files/block_hash.hpp"
 
 #include <fcntl.h>
 
@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 

@@ -1,4 +1,4 @@
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
 
 namespace poreshock {
 

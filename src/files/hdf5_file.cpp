@@ -1,4 +1,4 @@
-#include "poreshock/output/hdf5_file.hpp"
+#include "poreshock/files/hdf5_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "hdf5_handle.hpp"
-#include "poreshock/output/block_hash.hpp"
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 

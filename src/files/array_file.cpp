@@ -1,4 +1,4 @@
-#include "poreshock/output/array_file.hpp"
+#include "poreshock/files/array_file.hpp"
 
 #include <fcntl.h>
 
@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "poreshock/output/hdf5_file.hpp"
-#include "poreshock/output/posix_file.hpp"
-#include "poreshock/output/rank_zero.hpp"
+#include "poreshock/core/rank_zero.hpp"
+#include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 
