@@ -39,7 +39,8 @@ std::string build_information() {
          ")\ncompiler   " PORESHOCK_COMPILER "\nflags      " PORESHOCK_FLAGS "\nlibraries  " +
          mpi_version() + ", PETSc " + petsc_version() +
          ", HDF5 " PORESHOCK_HDF5 ", METIS " PORESHOCK_METIS ", Eigen " + eigen_version() +
-         ", toml++ " PORESHOCK_TOML ", CLI11 " PORESHOCK_CLI11 ", libpng " PORESHOCK_PNG;
+         ", toml++ " PORESHOCK_TOML ", CLI11 " PORESHOCK_CLI11 ", libpng " PORESHOCK_PNG
+         ", libtiff " PORESHOCK_TIFF;
 }
 
 }  // namespace poreshock

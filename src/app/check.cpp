@@ -55,10 +55,11 @@ void print_sample(const Scene& scene, const SampleReport& report) {
                   static_cast<long long>(report.island_particles));
     }
   }
-  if (makes_grains(scene.sample.kind)) {
-    std::printf("grains                  %zu, void fraction %.6f", report.grains.size(),
-                report.geometric_void_fraction);
-    if (scene.sample.kind != SampleKind::image) {
+  const bool image = scene.sample.kind == SampleKind::image;
+  if (makes_grains(scene.sample) || image) {
+    std::printf("grains                  %zu, void fraction %.6f",
+                std::max(report.grains.size(), std::size_t{1}), report.geometric_void_fraction);
+    if (!image) {
       std::printf(" (asked %.6f), least gap %.3g m", scene.sample.porosity, report.least_gap);
     }
     std::printf("\nvoid fraction of the particles  %.6f\n", report.particle_void_fraction);

@@ -55,14 +55,25 @@ std::optional<std::vector<std::uint64_t>> extents(const std::string& text) {
   return shape;
 }
 
-/// Whether a file of so many bytes has room for the numbers; the product may leave 64 bits.
-bool has_room(const StoredArray& array, std::uint64_t file_bytes) {
-  std::uint64_t room = (file_bytes - array.data_begin) / (array.number[1] - '0');
-  for (const std::uint64_t extent : array.shape) {
-    if (extent == 0) return true;
-    room /= extent;
+/// Whole rows that a file of so many bytes has, at most those asked for; products may leave 64
+/// bits.
+std::uint64_t whole_rows(const StoredArray& array, std::uint64_t file_bytes) {
+  const std::uint64_t rows = array.shape.empty() ? 1 : array.shape[0];
+  if (file_bytes < array.data_begin) return 0;
+  std::uint64_t room = (file_bytes - array.data_begin) / array.number_size();
+  for (std::size_t axis = 1; axis < array.shape.size(); ++axis) {
+    if (array.shape[axis] == 0) return rows;
+    room /= array.shape[axis];
   }
-  return room > 0;
+  return std::min(room, rows);
+}
+
+/// "it ends in slice 7 of 9"; empty when nothing is missing.
+std::string early_end(const StoredArray& array, std::uint64_t file_bytes, const std::string& row) {
+  const std::uint64_t rows = array.shape.empty() ? 1 : array.shape[0];
+  const std::uint64_t whole = whole_rows(array, file_bytes);
+  if (whole == rows) return "";
+  return "it ends in " + row + " " + std::to_string(whole + 1) + " of " + std::to_string(rows);
 }
 
 /// Text of the header of NumPy format 1.0 to 3.0: magic, version, length of the header, header.
@@ -83,7 +94,7 @@ std::string read_header_text(const FileDescriptor& file, StoredArray& array) {
   return header;
 }
 
-void read_npy_header(StoredArray& array) {
+void read_npy_header(const std::string& row, StoredArray& array) {
   if (!std::filesystem::is_regular_file(array.file)) throw InputError(array.file + ": not found");
   const FileDescriptor file(array.file, O_RDONLY);
   const std::string header = read_header_text(file, array);
@@ -107,8 +118,18 @@ void read_npy_header(StoredArray& array) {
   const auto found = extents(*shape);
   if (!found) refuse_header(array.file, "the extents " + *shape + ", allowed are some like (3, 4)");
   array.shape = *found;
-  if (has_room(array, file.size())) return;
-  throw InputError(array.file + ": truncated, it is shorter than its header says");
+  const std::string end = early_end(array, file.size(), row);
+  if (end.empty()) return;
+  throw InputError(array.file + ": truncated, it is shorter than its header says: " + end);
+}
+
+/// Turns the bytes of every number around.
+void swap_bytes(std::uint64_t width, std::vector<std::byte>& bytes) {
+  for (auto number = bytes.begin(); number != bytes.end();) {
+    const auto next = number + static_cast<std::ptrdiff_t>(width);
+    std::reverse(number, next);
+    number = next;
+  }
 }
 
 template <class T>
@@ -120,13 +141,14 @@ void convert(const std::vector<std::byte>& bytes, std::vector<double>& values) {
   }
 }
 
-std::vector<double> read_npy_rows(const StoredArray& array, std::uint64_t first,
-                                  std::uint64_t count) {
+std::vector<double> read_plain_rows(const StoredArray& array, std::uint64_t first,
+                                    std::uint64_t count) {
   std::vector<double> values(count * array.row_size());
-  const auto width = static_cast<std::uint64_t>(array.number[1] - '0');
+  const std::uint64_t width = array.number_size();
   std::vector<std::byte> bytes(values.size() * width);
   const FileDescriptor file(array.file, O_RDONLY);
   file.read(array.data_begin + first * array.row_size() * width, bytes.data(), bytes.size());
+  if (array.big_endian) swap_bytes(width, bytes);
   const std::string& n = array.number;
   if (n == "f8") convert<double>(bytes, values);
   if (n == "f4") convert<float>(bytes, values);
@@ -147,7 +169,7 @@ bool names_array(const std::string& name) {
   return name.ends_with(".npy") || name.find(":/") != std::string::npos;
 }
 
-StoredArray find_array(const std::string& name, MPI_Comm communicator) {
+StoredArray find_array(const std::string& name, MPI_Comm communicator, const std::string& row) {
   StoredArray array;
   const std::size_t colon = name.rfind(":/");
   array.file = name.substr(0, colon);
@@ -167,17 +189,40 @@ StoredArray find_array(const std::string& name, MPI_Comm communicator) {
   // Every rank reads the header, which is short, after rank 0 has found nothing wrong with it.
   on_rank_zero(communicator, [&] {
     StoredArray trial = array;
-    read_npy_header(trial);
+    read_npy_header(row, trial);
   });
-  agree(attempt([&] { read_npy_header(array); }), communicator);
+  agree(attempt([&] { read_npy_header(row, array); }), communicator);
   return array;
+}
+
+void require_numbers(const StoredArray& array, const std::string& row) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(array.file, error)) {
+    throw InputError(array.file + ": not found, or not a file");
+  }
+  const std::uint64_t found = std::filesystem::file_size(array.file);
+  const std::string end = early_end(array, found, row);
+  std::string extents;
+  for (const std::uint64_t n : array.shape) {
+    extents += (extents.empty() ? "" : " x ") + std::to_string(n);
+  }
+  const std::string allowed = "Allowed are the bytes of " + extents + " numbers of " +
+                              std::to_string(array.number_size()) + " bytes after byte " +
+                              std::to_string(array.data_begin) + ".";
+  const std::string has = array.file + ": has " + std::to_string(found) + " bytes, ";
+  if (!end.empty()) throw InputError(has + end + ". " + allowed);
+  const std::uint64_t wanted =
+      array.data_begin + array.shape.at(0) * array.row_size() * array.number_size();
+  if (found == wanted) return;
+  throw InputError(has + std::to_string(found - wanted) + " more than its numbers need. " +
+                   allowed + " Its size, type or beginning is another one.");
 }
 
 std::vector<double> read_rows(const StoredArray& array, std::uint64_t first, std::uint64_t count,
                               MPI_Comm communicator) {
   std::vector<double> values;
   if (array.dataset.empty()) {
-    agree(attempt([&] { values = read_npy_rows(array, first, count); }), communicator);
+    agree(attempt([&] { values = read_plain_rows(array, first, count); }), communicator);
     return values;
   }
   values.resize(count * array.row_size());

@@ -23,27 +23,24 @@ std::int32_t first_grain_owner(const Scene& scene) {
 void settle_islands(const Scene& scene, const Lattice& lattice, LatticeRange range,
                     MPI_Comm communicator, std::vector<std::int32_t>& owners,
                     SampleReport& report) {
-  const IslandPieces islands = find_islands(scene, report.voids, communicator);
+  const IslandPieces islands = find_islands(scene, report.voids, range, communicator);
   const bool become_grains = scene.sample.islands == Islands::grains;
   if (become_grains) report.grains = grains_of_islands(scene, lattice, islands);
-  std::vector<bool> seen(islands.piece_size.size(), false);
-  const std::int64_t rows_per_layer = lattice.layer_size() / lattice.sites[0];
-  const std::int64_t rows = static_cast<std::int64_t>(islands.runs.row_start.size()) - 1;
-  for (std::int64_t row = 0; row < std::min(rows, range.last * rows_per_layer); ++row) {
-    const std::size_t r = static_cast<std::size_t>(row);
+  const std::int64_t first_site = range.first * lattice.layer_size();
+  for (std::size_t p = 0; p < islands.pieces.size(); ++p) {
+    // An island counts where its first site lies, so that counts of ranges add up.
+    const std::int64_t first = islands.pieces[p].first - first_site;
+    const bool here = first >= 0 && first < static_cast<std::int64_t>(owners.size());
+    if (here && static_cast<std::int32_t>(p) != islands.largest) ++report.islands;
+  }
+  for (std::int64_t row = 0; row < islands.runs.rows(); ++row) {
+    const auto r = static_cast<std::size_t>(row);
     for (std::size_t n = islands.runs.row_start[r]; n < islands.runs.row_start[r + 1]; ++n) {
       const Run& run = islands.runs.runs[n];
-      if (run.piece == islands.largest) continue;
-      const std::size_t piece = static_cast<std::size_t>(run.piece);
-      const bool first_run = !seen[piece];
-      seen[piece] = true;
-      const std::int64_t local_row = row - range.first * rows_per_layer;
-      if (local_row < 0) continue;
-      // An island counts where its first site lies, so that counts of ranges add up.
-      if (first_run) ++report.islands;
-      const std::int32_t grain = run.piece - (run.piece > islands.largest ? 1 : 0);
+      if (run.region == islands.largest) continue;
+      const std::int32_t grain = run.region - (run.region > islands.largest ? 1 : 0);
       for (std::int64_t i = run.begin; i < run.end; ++i) {
-        std::int32_t& owner = owners[static_cast<std::size_t>(local_row * lattice.sites[0] + i)];
+        std::int32_t& owner = owners[static_cast<std::size_t>(row * lattice.sites[0] + i)];
         // Sites that a body took over stay.
         if (owner != owner_sample) continue;
         owner = become_grains ? first_grain_owner(scene) + grain : owner_none;
@@ -220,8 +217,8 @@ void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particl
     report.least_gap = least_gap(report.voids, block);
     report.geometric_void_fraction = void_fraction(report.voids, block);
   }
-  const GrainLayout layout = place_grains(scene);
-  if (!layout.grains.empty()) {
+  const GrainLayout layout = place_grains(scene, range, communicator);
+  if (makes_grains(scene.sample) || scene.sample.kind == SampleKind::image) {
     report.grains = layout.grains;
     report.geometric_void_fraction = layout.void_fraction;
     if (layout.gap > 0.0) report.least_gap = layout.gap;

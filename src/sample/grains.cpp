@@ -7,7 +7,7 @@
 
 namespace poreshock {
 
-GrainLayout place_grains(const Scene& scene) {
+GrainLayout place_grains(const Scene& scene, LatticeRange range, MPI_Comm communicator) {
   GrainLayout layout;
   switch (scene.sample.kind) {
     case SampleKind::packed_grains:
@@ -17,7 +17,7 @@ GrainLayout place_grains(const Scene& scene) {
       layout = divide_into_grains(scene);
       break;
     case SampleKind::image:
-      layout = grains_of_image(scene);
+      layout = grains_of_image(scene, range, communicator);
       break;
     default:
       return layout;
@@ -51,14 +51,19 @@ void assign_materials(const Sample& sample, std::vector<Grain>& grains) {
 
 namespace {
 
-/// Index of the image's grain at a point, -1 = void.
-std::int32_t image_grain(const GrainImage& image, double pixel, const Triple& point) {
-  const auto clamp = [](double x, std::int64_t count) {
-    return std::clamp(static_cast<std::int64_t>(std::floor(x)), std::int64_t{0}, count - 1);
-  };
-  const std::int64_t row = clamp(point[1] / pixel, image.rows);
-  return image.grain[static_cast<std::size_t>(row * image.columns +
-                                              clamp(point[0] / pixel, image.columns))];
+/// Gives the solid sites of an image to its grains, or all to the sample where it has none.
+void give_image(const Scene& scene, const GrainLayout& layout, std::int32_t first_owner,
+                std::vector<std::int32_t>& owners) {
+  const std::int64_t row_length = make_lattice(scene).sites[0];
+  for (std::int64_t row = 0; row < layout.sites.rows(); ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t n = layout.sites.row_start[r]; n < layout.sites.row_start[r + 1]; ++n) {
+      const Run& run = layout.sites.runs[n];
+      const auto begin = owners.begin() + row * row_length;
+      std::fill(begin + run.begin, begin + run.end,
+                layout.grains.empty() ? owner_sample : first_owner + run.region);
+    }
+  }
 }
 
 void give_discs(const Scene& scene, const GrainLayout& layout, LatticeRange range,
@@ -80,11 +85,7 @@ void give_grains(const Scene& scene, const GrainLayout& layout, LatticeRange ran
   if (scene.sample.kind == SampleKind::voronoi_grains) {
     return give_cells(scene, layout, range, first_owner, owners);
   }
-  if (scene.sample.kind != SampleKind::image) return;
-  for_each_block_site(make_lattice(scene), range, [&](std::size_t site, const Triple& point) {
-    const std::int32_t grain = image_grain(layout.image, scene.sample.pixel, point);
-    if (grain >= 0) owners[site] = first_owner + grain;
-  });
+  if (scene.sample.kind == SampleKind::image) give_image(scene, layout, first_owner, owners);
 }
 
 }  // namespace poreshock

@@ -6,26 +6,22 @@
 
 #include "lattice.hpp"
 #include "packing.hpp"
+#include "regions.hpp"
 
 namespace poreshock {
-
-/// A grey or labelled image as grains: one per connected region.
-struct GrainImage {
-  std::int64_t columns = 0, rows = 0;
-  std::vector<std::int32_t> grain;  ///< per pixel, lowest row first; -1 = void
-};
 
 /// Grains of a sample and what tells them apart.
 struct GrainLayout {
   std::vector<Grain> grains;
   double gap = 0.0;            ///< m, between Voronoi grains
   double void_fraction = 0.0;  ///< of the sample block
-  GrainImage image;            ///< only for images
+  Runs sites;                  ///< of an image: solid sites of a range, of its grains as regions
 };
 
-/// The grains of a scene's sample; none for samples without. Deterministic in the scene. Throws
-/// InputError with the reason when they cannot be made. Not collective.
-GrainLayout place_grains(const Scene& scene);
+/// The grains of a scene's sample; none for samples without, and of an image the sites in `range`.
+/// Deterministic in the scene. Throws InputError with the reason when they cannot be made.
+/// Collective for images.
+GrainLayout place_grains(const Scene& scene, LatticeRange range, MPI_Comm communicator);
 
 /// Packed grains: soft discs or balls grow in small steps while they are moved apart (inflation),
 /// until they take the share of the block that is not void. Throws InputError with the share at
@@ -36,8 +32,10 @@ GrainLayout pack_grains(const Scene& scene);
 /// is the same everywhere and follows from the void fraction, to about 1e-3 of it.
 GrainLayout divide_into_grains(const Scene& scene);
 
-/// Grains of an image. Throws InputError that names the file.
-GrainLayout grains_of_image(const Scene& scene);
+/// Grains of an image, one for each connected region, or none where it is one matrix, and its solid
+/// sites in `range`. Every rank reads its share of the layers. Throws InputError with all that is
+/// wrong with the files. Collective.
+GrainLayout grains_of_image(const Scene& scene, LatticeRange range, MPI_Comm communicator);
 
 /// Gives each grain a material of the sample's mixture, in a random order always the one whose
 /// share is farthest behind.

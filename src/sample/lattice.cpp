@@ -97,8 +97,8 @@ std::vector<std::int32_t> sample_owners(const Scene& scene, const std::vector<Vo
                                    owner_none);
   const std::int64_t filled =
       std::clamp(lattice.sample_layers - range.first, std::int64_t{0}, layers);
-  // Grains take their own sites of an empty block.
-  if (!makes_grains(scene.sample.kind)) {
+  // Grains and images take their own sites of an empty block.
+  if (!makes_grains(scene.sample) && scene.sample.kind != SampleKind::image) {
     std::fill_n(owners.begin(), filled * lattice.layer_size(), owner_sample);
   }
   for (const Void& v : voids) {

@@ -9,7 +9,13 @@
 namespace poreshock {
 
 /// What a random number is used for; numbers of different streams are independent.
-enum class RandomStream : std::uint32_t { radius = 1, position = 2, shake = 3, material = 4 };
+enum class RandomStream : std::uint32_t {
+  radius = 1,
+  position = 2,
+  shake = 3,
+  material = 4,
+  sites = 5
+};
 
 /// One block of four random 32-bit words: ten rounds of Philox4x32.
 inline std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "check_scene.hpp"
@@ -44,26 +45,49 @@ void check_placed_grains(const Scene& scene, Report& report) {
   }
 }
 
+/// A size of a raw image is whole, and is there if the image is one.
+void check_raw(const Scene& scene, Report& report) {
+  const Sample& sample = scene.sample;
+  if (!good(report, {"sample.raw_size", "sample.image"})) return;
+  const auto size = sample.raw_size.begin();
+  const bool given = std::any_of(size, size + scene.dimension, [](double n) { return n != 0.0; });
+  const bool whole = std::all_of(size, size + scene.dimension, [](double n) {
+    return n >= 1.0 && n <= 1e9 && n == std::floor(n);
+  });
+  const std::string allowed = "whole numbers from 1 to 1e9, voxels along each axis";
+  const bool named = sample.image.ends_with(".raw") || sample.image.ends_with(".bin");
+  if (given && !whole) {
+    add_problem("sample.raw_size",
+                "found " + plain_number(sample.raw_size[0]) + ", " +
+                    plain_number(sample.raw_size[1]) + " ..., allowed " + allowed,
+                report);
+  } else if (named && !given) {
+    add_problem("sample.raw_size",
+                wrong(report, "sample.raw_size", "0", allowed + ", with " + sample.image), report);
+  }
+}
+
 void check_image(const Scene& scene, Report& report) {
   const Sample& sample = scene.sample;
-  if (scene.dimension != 2) {
-    add_problem("sample.kind", "found \"image\" in 3-D, allowed in 2-D only", report);
-  }
   if (good(report, {"sample.image"}) && sample.image.empty()) {
     add_problem("sample.image",
-                wrong(report, "sample.image", "no name", "the path of a PNG or PGM file"), report);
+                wrong(report, "sample.image", "no name",
+                      scene.dimension == 2 ? "the path of a PNG, TIFF or PGM file or of an array"
+                                           : "the path of a stack: a folder of slices, or a file"),
+                report);
   }
+  check_raw(scene, report);
   if (good(report, {"sample.pixel"}) && !(sample.pixel > 0.0)) {
     add_problem("sample.pixel",
                 wrong(report, "sample.pixel", plain_number(sample.pixel) + " m",
-                      "a number > 0 (m), the side of a pixel of the image"),
+                      "a number > 0 (m), the side of a pixel or voxel of the image"),
                 report);
   }
 }
 
 void check_mixture(const Sample& sample, Report& report) {
   if (sample.mixture.empty() || !good(report, {"sample.mixture"})) return;
-  if (!makes_grains(sample.kind)) {
+  if (!makes_grains(sample)) {
     add_problem("sample.mixture.0", "found a mixture, allowed with a sample of grains only",
                 report);
     return;

@@ -91,7 +91,7 @@ void check_self_contact(const Scene& scene, Report& report) {
   std::string allowed;
   if (scene.dimension == 3) {
     allowed = "false in 3-D: the sides of a void wall are told apart in the plane only";
-  } else if (makes_grains(scene.sample.kind)) {
+  } else if (makes_grains(scene.sample)) {
     allowed = "false with a sample of grains: each grain has one velocity field";
   } else if (scene.contact.normal == ContactNormal::regression) {
     allowed = "false with contact.normal = \"regression\": that parts grains, not sides of one";

@@ -26,7 +26,7 @@ inline const std::vector<std::string> particle_datasets{"id",
 
 /// True when there may be several velocity fields: grains, or self-contact.
 inline bool may_have_contact(const Scene& scene) {
-  if (scene.contact.self || makes_grains(scene.sample.kind)) return true;
+  if (scene.contact.self || makes_grains(scene.sample)) return true;
   if (scene.sample.islands == Islands::grains) return true;
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
     return body.grain != (scene.sample.kind == SampleKind::none ? scene.bodies.front().grain : 0);

@@ -18,6 +18,27 @@ void visit_material_name(Visitor& visitor, int& index, const Scene& scene) {
 }
 
 template <typename Visitor>
+void visit_image(Visitor& visitor, Sample& sample, int dimension) {
+  const Names<Regions> fates{{"grains", Regions::grains}, {"matrix", Regions::matrix}};
+  visitor.text("image", sample.image,
+               {"picture, or in 3-D stack of slices, relative to the scene's folder"});
+  visitor.number("pixel", sample.pixel,
+                 {not_negative, "m", "side of a pixel or voxel of the image"});
+  visitor.number("threshold", sample.threshold,
+                 {any_number, "", "grey value from which on a pixel is solid; without: labels"});
+  choice(visitor, "regions", sample.regions, fates,
+         {"of an image: a grain each, or all one solid with voids in it"});
+  visitor.vector("raw_size", sample.raw_size, dimension,
+                 {not_negative, "", "voxels along each axis of an image that is plain numbers"});
+  visitor.name("raw_type", sample.raw_type,
+               {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"},
+               {"of its numbers"});
+  visitor.flag("raw_big_endian", sample.raw_big_endian,
+               {"true where its numbers have their highest byte first"});
+  integer(visitor, "raw_skip", sample.raw_skip, {not_negative, "", "bytes before its numbers"});
+}
+
+template <typename Visitor>
 void visit_grains(Visitor& visitor, Sample& sample, const Scene& scene) {
   visitor.number("grain_radius", sample.grain_radius,
                  {not_negative, "m", "median radius of a grain; Voronoi: of the equal disc"});
@@ -25,10 +46,7 @@ void visit_grains(Visitor& visitor, Sample& sample, const Scene& scene) {
                  {not_negative, "", "standard deviation of ln(radius); 0 = all equal"});
   visitor.number("grain_gap", sample.grain_gap,
                  {not_negative, "m", "least gap between two packed grains"});
-  visitor.text("image", sample.image, {"PNG or PGM file, relative to the scene's folder"});
-  visitor.number("pixel", sample.pixel, {not_negative, "m", "side of a pixel of the image"});
-  visitor.number("threshold", sample.threshold,
-                 {not_negative, "", "grey value from which on a pixel is solid; without: labels"});
+  visit_image(visitor, sample, scene.dimension);
   visitor.tables("mixture", sample.mixture, {"A material of the grains."},
                  [&](auto& inner, MixturePart& part) {
                    visit_material_name(inner, part.material, scene);

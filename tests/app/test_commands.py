@@ -22,7 +22,7 @@ class Commands(ProgramTest):
         self.assertRegex(self.succeed("--version").output,
                          r"^poreshock \d+\.\d+\.\d+ \(\S+\)\ncompiler   \S+ \d\S+, \w+\nflags      -\S.* -ffp-contract=off .*\n"
                          r"libraries  .*MPI.*, PETSc \d\S+ with \d\d-bit indices, HDF5 \d\S+, METIS \d\S+, Eigen \d\S+, "
-                         r"toml\+\+ \d\S+, CLI11 \d\S+, libpng \d\S+\n$")
+                         r"toml\+\+ \d\S+, CLI11 \d\S+, libpng \d\S+, libtiff \d\S+\n$")
 
     def test_a_full_disk_at_standard_output_is_a_failure(self):
         """Of every command, without mpirun, which takes all that is printed."""

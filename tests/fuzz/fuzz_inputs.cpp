@@ -6,9 +6,10 @@
 #include "output/support.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/files/array_file.hpp"
+#include "poreshock/image/image.hpp"
+#include "poreshock/image/stack.hpp"
 #include "sample/filled.hpp"
-#include "sample/image.hpp"
-#include "sample/image_files.hpp"
+#include "sample/stack_files.hpp"
 
 namespace poreshock {
 namespace {
@@ -45,6 +46,11 @@ std::vector<std::string> images() {
     const int most = kind.palette.empty() ? (1 << kind.bits) - 1 : 3;
     all.push_back(
         read_bytes(write_png("image.fuzz", columns, rows, picture(channels_of(kind), most), kind)));
+  }
+  for (const TiffKind& kind : {TiffKind{}, TiffKind{.compression = COMPRESSION_ADOBE_DEFLATE},
+                               TiffKind{.bits = 16, .compression = COMPRESSION_LZW, .tile = 16}}) {
+    const Voxels flat{{columns, rows, 1}, picture(1, 255)};
+    all.push_back(read_bytes(write_tiff("image.fuzz.tif", flat, kind)));
   }
   all.push_back(read_bytes(write_pgm("image.fuzz", columns, rows, picture(1, 255))));
   all.push_back(read_bytes(write_text_pgm("image.fuzz", columns, rows, picture(1, 255))));
@@ -147,6 +153,49 @@ TEST(Fuzz, ImagesAreRefusedWithAReasonOrRead) {
   std::printf("%llu mutated images, each read twice: %llu times refused, %llu read\n",
               static_cast<unsigned long long>(count), static_cast<unsigned long long>(refused),
               static_cast<unsigned long long>(read));
+  EXPECT_GT(refused, count / 4);
+  EXPECT_GT(read, count / 10);
+}
+
+/// Stacks in files of every kind that has a header, by the ending of their names.
+std::vector<std::pair<std::string, std::string>> stacks() {
+  const Voxels voxels{{4, 3, 5}, std::vector<int>(60, 3)};
+  const std::string bytes = all_bytes(voxels.value, 8);
+  return {{".mha", meta_header(voxels, "MET_UCHAR", "HeaderSize = -1\n", "LOCAL") + bytes},
+          {".mhd", meta_header(voxels, "MET_UCHAR", "", "stack.fuzz.mhd")},
+          {".nrrd", nrrd_header(voxels, "uchar", "byte skip: -1\nendian: little\n") + bytes},
+          {".tif", read_bytes(write_tiff("stack.fuzz.tif", voxels))},
+          {".npy", npy_bytes(voxels, "|u1", bytes)}};
+}
+
+TEST(Fuzz, StacksAreRefusedWithAReasonOrRead) {
+  const auto originals = stacks();
+  const test::CaseWatch watch;
+  const std::uint64_t count = test::fuzz_count("PORESHOCK_FUZZ_IMAGES", 400);
+  std::uint64_t refused = 0, read = 0;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    test::Mutator mutator(seed);
+    const auto& [ending, original] = originals[mutator.below(originals.size())];
+    std::string bytes = original;
+    mutator.below(2) == 0 ? mutator.file(bytes) : mutator.beginning(bytes, bytes.size());
+    const std::string path = write_bytes("stack.fuzz" + ending, bytes);
+    watch.begin(seed);
+    std::vector<std::string> problems;
+    try {
+      const Stack stack = find_stack(path, 3, false, {}, MPI_COMM_SELF);
+      if (stack.layers() * stack.layer_size() < 100000) {
+        read_layers(stack, 0, stack.layers(), MPI_COMM_SELF, problems);
+      }
+      problems.empty() ? ++read : ++refused;
+    } catch (const InputError& error) {
+      ASSERT_EQ(std::string(error.what()).find("sample.image: "), 0U)
+          << "case " << seed << ": " << error.what();
+      ++refused;
+    } catch (const std::exception& error) {
+      FAIL() << "case " << seed << ", another exception: " << error.what();
+    }
+    watch.end();
+  }
   EXPECT_GT(refused, count / 4);
   EXPECT_GT(read, count / 10);
 }

@@ -83,7 +83,7 @@ class Installed(unittest.TestCase):
         run("cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", self.folder / "deb")
         package, = (self.folder / "deb").glob("poreshock_*.deb")
         depends = run("dpkg-deb", "--field", package, "Depends")
-        for library in ("openmpi-bin", "libpetsc", "libhdf5-openmpi", "libpng", "libmetis"):
+        for library in ("openmpi-bin", "libpetsc", "libhdf5-openmpi", "libpng", "libtiff", "libmetis"):
             self.assertIn(library, depends)
         root = self.folder / "root"
         run("dpkg-deb", "--extract", package, root)

@@ -212,7 +212,7 @@ TEST(ImageGrains, BadImagesAreNamed) {
   const auto refused = [](const std::string& file) { return error_of(image_scene(file, 20e-6)); };
   expect_words(refused("absent.png"), {"sample.image: absent.png", "cannot be opened"});
   expect_words(refused(write_bytes("text.png", "no image")),
-               {"text.png", "neither a PNG nor a PGM file"});
+               {"text.png", "neither a PNG, nor a TIFF, nor a PGM file"});
   const std::vector<int> labels(12, 5);
   std::string bytes = read_bytes(write_png("cut.png", 4, 3, labels, 8));
   write_bytes("cut.png", bytes.substr(0, bytes.size() / 2));

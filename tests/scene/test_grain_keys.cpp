@@ -34,9 +34,29 @@ TEST(GrainKeys, VoronoiGrainsTakeTheirGapFromThePorosity) {
 
 TEST(GrainKeys, ImageNeedsAFileAndAPixel) {
   EXPECT_EQ(grain_problems("kind = \"image\"\n"),
-            "s.toml:14:1: sample.image: missing, give the path of a PNG or PGM file\n"
-            "s.toml:14:1: sample.pixel: missing, give a number > 0 (m), the side of a pixel of the "
-            "image");
+            "s.toml:14:1: sample.image: missing, give the path of a PNG, TIFF or PGM file or of an "
+            "array\n"
+            "s.toml:14:1: sample.pixel: missing, give a number > 0 (m), the side of a pixel or "
+            "voxel of the image");
+}
+
+TEST(GrainKeys, RawImagesNeedTheirSize) {
+  const std::string start = "kind = \"image\"\npixel = 1e-6\nimage = \"scan.raw\"\n";
+  EXPECT_EQ(grain_problems(start),
+            "s.toml:14:1: sample.raw_size: missing, give whole numbers from 1 to 1e9, voxels along "
+            "each axis, with scan.raw");
+  EXPECT_EQ(
+      grain_problems(start + "raw_size = [10, 20.5]\nraw_type = \"uint12\"\n"),
+      "s.toml:18:12: sample.raw_size: found 10, 20.5 ..., allowed whole numbers from 1 to "
+      "1e9, voxels along each axis\n"
+      "s.toml:19:12: sample.raw_type: found \"uint12\", allowed \"uint8\", \"int8\", "
+      "\"uint16\", \"int16\", \"uint32\", \"int32\", \"float32\" or \"float64\", did you mean "
+      "\"uint16\"?");
+  EXPECT_EQ(grain_problems(start + "raw_size = [10, 20]\nregions = \"matrix\"\n"), "");
+  EXPECT_EQ(
+      grain_problems(start + "raw_size = [10, 20]\nregions = \"matrix\"\n"
+                             "mixture = [{ material = \"aluminium\", fraction = 1.0 }]\n"),
+      "s.toml:20:12: sample.mixture.0: found a mixture, allowed with a sample of grains only");
 }
 
 TEST(GrainKeys, MixturesNameMaterialsAndSumToOne) {
@@ -72,16 +92,22 @@ TEST(GrainKeys, SurviveTheWayThroughText) {
       "[[sample.mixture]]\nmaterial = \"aluminium\"\nfraction = 1.0\n");
   std::string grains = text;
   const std::string kind = "kind = \"solid\"\n";
-  grains.replace(grains.find(kind), kind.size(),
-                 "kind = \"image\"\nimage = \"a.png\"\npixel = 1e-6\nthreshold = 99.5\n"
-                 "grain_spread = 0.1\nislands = \"grains\"\n");
+  grains.replace(
+      grains.find(kind), kind.size(),
+      "kind = \"image\"\nimage = \"a.png\"\npixel = 1e-6\nthreshold = -99.5\n"
+      "raw_size = [12, 34]\nraw_type = \"int16\"\nraw_big_endian = true\nraw_skip = 512\n"
+      "grain_spread = 0.1\nislands = \"grains\"\n");
   const Scene scene = parse_scene(grains, "s.toml");
   EXPECT_EQ(scene.contact.friction, 0.25);
   EXPECT_EQ(scene.contact.gap, GapTest::none);
   EXPECT_EQ(scene.contact.normal, ContactNormal::regression);
   EXPECT_EQ(scene.boundary.low.friction, 0.5);
   EXPECT_EQ(scene.sample.image, "a.png");
-  EXPECT_EQ(scene.sample.threshold, 99.5);
+  EXPECT_EQ(scene.sample.threshold, -99.5);
+  EXPECT_EQ(scene.sample.raw_size, (Triple{12.0, 34.0, 0.0}));
+  EXPECT_EQ(scene.sample.raw_type, "int16");
+  EXPECT_TRUE(scene.sample.raw_big_endian);
+  EXPECT_EQ(scene.sample.raw_skip, 512);
   ASSERT_EQ(scene.sample.mixture.size(), 1U);
   EXPECT_EQ(scene.sample.mixture[0].fraction, 1.0);
   EXPECT_EQ(scene.sample.islands, Islands::grains);

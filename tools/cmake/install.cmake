@@ -24,7 +24,7 @@ install(FILES tools/completion.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME poreshock)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/poreshock)
-set(layers core files material scene particles grid morphology output sample transfer physics solver run)
+set(layers core files image material scene particles grid morphology output sample transfer physics solver run)
 list(TRANSFORM layers PREPEND poreshock_)
 foreach(target IN LISTS layers)
   string(REPLACE "poreshock_" "" name ${target})
@@ -54,5 +54,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy, python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libopenmpi-dev, petsc-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev, libpng-dev, paraview")
+    "libopenmpi-dev, petsc-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev, libpng-dev, libtiff-dev, paraview")
 include(CPack)

@@ -19,6 +19,7 @@ using Triple = std::array<double, 3>;
 
 enum class SampleKind { none, solid, random_voids, packed_grains, voronoi_grains, image };
 enum class Islands { removed, grains };  ///< what becomes of floating pieces
+enum class Regions { grains, matrix };   ///< what the connected regions of an image are
 enum class GapTest { volume, none };
 enum class ContactNormal { gradients, regression };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
@@ -85,10 +86,15 @@ struct Sample {
   double grain_radius = 0.0;           ///< m, median radius; of Voronoi grains: of the equal disc
   double grain_spread = 0.0;           ///< standard deviation of ln(radius); 0 = equal
   double grain_gap = 0.0;              ///< m, least gap between two packed grains
-  std::string image;                   ///< path of a PNG or PGM file
-  double pixel = 0.0;                  ///< m, side of a pixel of the image
+  std::string image;                   ///< path of a picture (2-D) or of a stack of slices (3-D)
+  double pixel = 0.0;                  ///< m, side of a pixel or voxel of the image
   std::optional<double> threshold;     ///< grey value from which on a pixel is solid; else labels
-  std::vector<MixturePart> mixture;    ///< materials of the grains; empty: `material`
+  Regions regions = Regions::grains;   ///< of the image
+  Triple raw_size{};                   ///< voxels along each axis of a raw image; 0 = not raw
+  std::string raw_type = "uint8";      ///< its numbers
+  bool raw_big_endian = false;
+  std::int64_t raw_skip = 0;         ///< bytes before its numbers
+  std::vector<MixturePart> mixture;  ///< materials of the grains; empty: `material`
   std::uint64_t seed = 1;
   int particles_per_cell = 2;  ///< per direction; also used for bodies
   bool operator==(const Sample&) const = default;
@@ -225,9 +231,9 @@ inline bool conducts_heat(const Scene& scene) {
 }
 
 /// True for samples that are made of grains.
-inline bool makes_grains(SampleKind kind) {
-  return kind == SampleKind::packed_grains || kind == SampleKind::voronoi_grains ||
-         kind == SampleKind::image;
+inline bool makes_grains(const Sample& sample) {
+  return sample.kind == SampleKind::packed_grains || sample.kind == SampleKind::voronoi_grains ||
+         (sample.kind == SampleKind::image && sample.regions == Regions::grains);
 }
 
 /// True when waves leave the sample into material behind one of its ends.

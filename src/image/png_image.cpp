@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "image_format.hpp"
@@ -154,20 +155,23 @@ std::int64_t value_of(std::int64_t red, std::int64_t green, std::int64_t blue, b
   return (red << 32) + (green << 16) + blue;
 }
 
-std::int64_t value_at(const PngRows& rows, const Samples& s, bool grey) {
-  if (is_transparent(rows, s)) return -1;
+double value_at(const PngRows& rows, const Samples& s, bool grey) {
+  if (is_transparent(rows, s)) return std::numeric_limits<double>::quiet_NaN();
   if (rows.palette && grey) {
     const png_color& colour = rows.colour[static_cast<std::size_t>(s[0])];
-    return value_of(colour.red, colour.green, colour.blue, true);
+    return static_cast<double>(value_of(colour.red, colour.green, colour.blue, true));
   }
-  return rows.channels < 3 ? s[0] : value_of(s[0], s[1], s[2], grey);
+  return static_cast<double>(rows.channels < 3 ? s[0] : value_of(s[0], s[1], s[2], grey));
 }
 
 }  // namespace
 
 Image read_png(const std::string& path, const std::string& bytes, bool grey) {
   const PngRows rows = decode(path, bytes);
-  Image image{static_cast<std::int64_t>(rows.columns), static_cast<std::int64_t>(rows.rows), {}};
+  Image image{static_cast<std::int64_t>(rows.columns),
+              static_cast<std::int64_t>(rows.rows),
+              rows.depth,
+              {}};
   image.value.reserve(rows.columns * rows.rows);
   for (std::size_t pixel = 0; pixel < rows.columns * rows.rows; ++pixel) {
     const Samples samples = samples_at(rows, pixel);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "image.hpp"
+#include "poreshock/image/image.hpp"
 
 namespace poreshock {
 
@@ -18,6 +18,9 @@ void require_image_size(const std::string& path, std::int64_t columns, std::int6
 
 /// read_image for the bytes of a PNG file.
 Image read_png(const std::string& path, const std::string& bytes, bool grey);
+
+/// read_image for a TIFF file.
+Image read_tiff(const std::string& path, bool grey);
 
 /// read_image for the bytes of a PGM file.
 Image read_pgm(const std::string& path, const std::string& bytes);

@@ -1,4 +1,4 @@
-#include "image.hpp"
+#include "poreshock/image/image.hpp"
 
 #include <array>
 #include <cerrno>
@@ -26,7 +26,7 @@ std::string read_bytes(const std::string& path) {
 
 void refuse_image(const std::string& path, const std::string& found) {
   throw InputError("sample.image: " + path + ": " + found +
-                   ". Allowed is a PNG file, or a PGM file (P2 or P5), of at most 2^28 pixels.");
+                   ". Allowed is a PNG, TIFF or PGM (P2 or P5) file of at most 2^28 pixels.");
 }
 
 void require_image_size(const std::string& path, std::int64_t columns, std::int64_t rows) {
@@ -40,7 +40,12 @@ Image read_image(const std::string& path, bool grey) {
   const std::string bytes = read_bytes(path);
   if (bytes.starts_with(png)) return read_png(path, bytes, grey);
   if (bytes.starts_with("P2") || bytes.starts_with("P5")) return read_pgm(path, bytes);
-  refuse_image(path, "is neither a PNG nor a PGM file");
+  const bool tiff = bytes.starts_with(std::string_view("II*\0", 4)) ||
+                    bytes.starts_with(std::string_view("MM\0*", 4)) ||
+                    bytes.starts_with(std::string_view("II+\0", 4)) ||
+                    bytes.starts_with(std::string_view("MM\0+", 4));
+  if (tiff) return read_tiff(path, grey);
+  refuse_image(path, "is neither a PNG, nor a TIFF, nor a PGM file");
 }
 
 }  // namespace poreshock

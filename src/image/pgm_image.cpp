@@ -94,7 +94,7 @@ void read_raw(const std::string& path, const std::string& text, std::size_t at, 
       value = value * 256 + static_cast<unsigned char>(text[at++]);
     }
     if (value > most) refuse_value(path, image, most);
-    image.value.push_back(value);
+    image.value.push_back(static_cast<double>(value));
   }
 }
 
@@ -104,7 +104,7 @@ void read_plain(const std::string& path, const std::string& text, std::size_t at
   while (image.value.size() < pixels) {
     const std::int64_t value = next_number(text, at);
     if (value < 0 || value > most) refuse_value(path, image, most);
-    image.value.push_back(value);
+    image.value.push_back(static_cast<double>(value));
   }
   if (skip_space(text, at) == text.size()) return;
   refuse_image(path, "goes on after its " + std::to_string(image.columns) + " x " +
@@ -125,6 +125,7 @@ Image read_pgm(const std::string& path, const std::string& bytes) {
     refuse_image(path, "has a greatest grey value of " + std::to_string(most) +
                            " in its PGM header, where 1 to 65535 is allowed");
   }
+  image.depth = most > 255 ? 16 : 8;
   bytes[1] == '5' ? read_raw(path, bytes, at, most, image)
                   : read_plain(path, bytes, at, most, image);
   return image;
