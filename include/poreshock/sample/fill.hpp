@@ -96,9 +96,9 @@ std::int64_t sample_layers(const Scene& scene);
 /// empty it. Sets id (lattice
 /// index, x fastest), position, velocity (loading, frame, body, spin), mass, density rho0, grain
 /// and material, the APIC gradient of a body's spin, and all else zero. `report` counts this range:
-/// see total(). Work grows with the sites of the range and the number of voids; only overlapping
-/// voids, whose floating islands are removed, need all sites of the sample, which the ranks of
-/// `communicator` share: alone with MPI_COMM_SELF, else collective. Throws InputError as
+/// see total(). Work grows with the sites of the range and the number of voids; only images, and
+/// overlapping voids, whose floating islands are removed, need all of the sample, which the ranks
+/// of `communicator` share: alone with MPI_COMM_SELF, else collective. Throws InputError as
 /// place_voids does, when grains cannot be made, and when two bodies of different grains overlap.
 template <int Dim>
 void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particles<Dim>& particles,
