@@ -18,6 +18,19 @@ void set_zero(Lanes* nodes, std::ptrdiff_t count) {
   for (std::ptrdiff_t i = 0; i < count; ++i) nodes[i] = Lanes{};
 }
 
+/// The sides that a grid rides with: planes that stop material, the low one first.
+Triple velocity_of_planes(const Scene& scene) {
+  Triple velocity{};
+  for (int a = 0; a < scene.dimension; ++a) {
+    for (const bool high : {true, false}) {
+      const Side side = side_at(scene.boundary, a, high, scene.dimension);
+      const auto axis = static_cast<std::size_t>(a);
+      if (side_law(side.kind).mirrors) velocity[axis] = side.velocity + scene.loading.frame[axis];
+    }
+  }
+  return velocity;
+}
+
 }  // namespace
 
 GridShape make_grid_shape(const Scene& scene) {
@@ -28,6 +41,7 @@ GridShape make_grid_shape(const Scene& scene) {
   shape.stencil = of_shape(shape.function, [](const auto& s) { return s.width; });
   shape.cell = scene.domain.cell;
   shape.periodic = scene.domain.periodic;
+  shape.velocity = velocity_of_planes(scene);
   // PETSc counts in PetscInt, 32 bits in Debian's default build.
   std::int64_t numbers = lane_count;
   for (int axis = 0; axis < scene.dimension; ++axis) {

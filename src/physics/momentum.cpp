@@ -35,6 +35,7 @@ template <int Dim>
 void add_body_work(const Vector<Dim>& body_force, double dt, const SlabGrid& grid,
                    NodeLedger& ledger) {
   using Motion = MotionLane<Dim>;
+  if (!(body_force.squaredNorm() > 0.0)) return;
   for (int row = grid.first_row(); row < grid.last_row(); ++row) {
     const Lanes* nodes = grid.row(row);
     for (int i = 0; i < grid.shape().row_size; ++i) {

@@ -30,10 +30,8 @@ namespace {
 constexpr std::int64_t rebalance_interval = 100;
 constexpr double seconds_between_rows = 2.0;
 
-template <int Dim>
-EnergyStatus energy_status(const Simulation<Dim>& sim, const Recorder<Dim>& recorder) {
-  const HistoryRow& row = recorder.last_row;
-  const double first = sim.ledger.first_total.value_or(row.total);
+EnergyStatus energy_status(const Ledger& ledger, const HistoryRow& row) {
+  const double first = ledger.first_total.value_or(row.total);
   return {row.kinetic, row.internal, first != 0.0 ? row.total / first - 1.0 : 0.0};
 }
 
@@ -106,8 +104,9 @@ void show_progress(ProgressRows rows, const Simulation<Dim>& sim, const Recorder
   int late = (rows == ProgressRows::every_beat ? sim.clock.on_beat : waited) ? 1 : 0;
   check_mpi(MPI_Bcast(&late, 1, MPI_INT, 0, sim.communicator), "MPI_Bcast");
   if (late == 0) return;
-  const std::string row = progress_row(sim.clock, sim.scene.time.end, energy_status(sim, recorder),
-                                       sim.phases, progress, sim.communicator);
+  const std::string row =
+      progress_row(sim.clock, sim.scene.time.end, energy_status(sim.ledger, recorder.last_row),
+                   sim.phases, progress, sim.communicator);
   if (rank(sim.communicator) == 0) std::printf("%s\n", row.c_str()), std::fflush(stdout);
 }
 
@@ -135,7 +134,7 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   const double dt = next_time_step(sim.scene, sim.clock);
   advance(sim, dt);
   progress.particle_steps += static_cast<std::int64_t>(sim.particles.size());
-  progress.sleeping_steps += sleeping_particles(sim);
+  progress.sleeping_steps += sleeping_particles(sim.cells, *sim.grid);
   tick(sim.scene, dt, sim.clock);
   // First of all: a checkpoint keeps the limit of all ranks, and a position that is not finite has
   // no row to go to.
@@ -172,9 +171,9 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
               std::to_string(counts[k + 2]);
   }
   std::printf("energy drift %.1e, guards: %s; escaped particles %lld (%.6g %s); checksum %016llx\n",
-              energy_status(sim, recorder).drift, guards.c_str(), static_cast<long long>(counts[0]),
-              static_cast<double>(escaped[0]) * mass_quantum(l), Dim == 2 ? "kg/m" : "kg",
-              static_cast<unsigned long long>(bits));
+              energy_status(sim.ledger, recorder.last_row).drift, guards.c_str(),
+              static_cast<long long>(counts[0]), static_cast<double>(escaped[0]) * mass_quantum(l),
+              Dim == 2 ? "kg/m" : "kg", static_cast<unsigned long long>(bits));
   show_heat(recorder.last_row, sim.scene, static_cast<long long>(counts[1]));
   for (const std::string& name : recorder.backlog.left_out) {
     std::printf("left out: %s\n", name.c_str());

@@ -44,8 +44,7 @@ std::vector<std::int64_t> leaving_particles(const Simulation<Dim>& sim) {
     const bool low = is_open<Dim>(sim.scene, axis, false),
                high = is_open<Dim>(sim.scene, axis, true);
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double moved =
-          (particles.velocity[a][p] - sim.stress_settings.grid_velocity[axis]) * time;
+      const double moved = (particles.velocity[a][p] - sim.grid->shape().velocity[a]) * time;
       const double x = particles.position[a][p];
       if (low && x + moved < 0.0) ++leaving[2 * a];
       if (high && x + moved >= size) ++leaving[2 * a + 1];
@@ -88,9 +87,7 @@ void warn_nothing_hit(const Simulation<Dim>& sim, std::vector<std::string>& warn
 }
 
 /// Grains that are driven together get more neighbours than they start with.
-template <int Dim>
-void warn_crowded(const Simulation<Dim>& sim, std::vector<std::string>& warnings) {
-  const std::vector<std::int8_t>& colours = sim.grain_fields.colours;
+void warn_crowded(const std::vector<std::int8_t>& colours, std::vector<std::string>& warnings) {
   if (colours.empty()) return;
   const int taken = 1 + *std::max_element(colours.begin(), colours.end());
   if (taken + 1 < most_colours) return;
@@ -108,7 +105,7 @@ std::vector<std::string> motion_warnings(const Simulation<Dim>& sim) {
   std::vector<std::string> warnings;
   warn_leaving(sim, warnings);
   warn_nothing_hit(sim, warnings);
-  warn_crowded(sim, warnings);
+  warn_crowded(sim.grain_fields.colours, warnings);
   return warnings;
 }
 

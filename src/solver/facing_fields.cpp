@@ -35,25 +35,17 @@ void split_by_facing(Simulation<Dim>& sim) {
   all.sides = find_sides(grids_of(all, &VelocityField::surfaces));
 }
 
-template <int Dim>
-void join_fields(Simulation<Dim>& sim) {
-  const GrainFields& all = sim.grain_fields;
-  if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::grid));
+void join_fields(const GrainFields& fields) {
+  if (!fields.sides.empty()) join_sides(fields.sides, grids_of(fields, &VelocityField::grid));
 }
 
-template <int Dim>
-void spread_fields(Simulation<Dim>& sim) {
-  const GrainFields& all = sim.grain_fields;
-  if (!all.sides.empty()) spread_sides(all.sides, grids_of(all, &VelocityField::grid));
+void spread_fields(const GrainFields& fields) {
+  if (!fields.sides.empty()) spread_sides(fields.sides, grids_of(fields, &VelocityField::grid));
 }
 
 template void mark_surfaces<2>(Simulation<2>&);
 template void mark_surfaces<3>(Simulation<3>&);
 template void split_by_facing<2>(Simulation<2>&);
 template void split_by_facing<3>(Simulation<3>&);
-template void join_fields<2>(Simulation<2>&);
-template void join_fields<3>(Simulation<3>&);
-template void spread_fields<2>(Simulation<2>&);
-template void spread_fields<3>(Simulation<3>&);
 
 }  // namespace poreshock

@@ -122,6 +122,18 @@ ContactSettings contact_settings(double dt, const Simulation<Dim>& sim) {
 
 }  // namespace
 
+std::vector<FieldView> velocity_fields(const CellOrder& cells, SlabGrid& grid,
+                                       const GrainFields& fields) {
+  if (fields.fields.empty()) return {{&cells, &grid}};
+  std::vector<FieldView> views;
+  for (const VelocityField& field : fields.fields) views.push_back({&field.cells, field.grid});
+  return views;
+}
+
+std::int64_t contact_nodes(const GrainFields& fields) {
+  return fields.fields.empty() ? 0 : std::ranges::count(fields.shared, true);
+}
+
 void release_fields(GrainFields& fields) {
   fields.fields.clear();
   fields.grids.clear();

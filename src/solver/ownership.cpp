@@ -119,29 +119,25 @@ void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
 }  // namespace
 
 template <int Dim>
-void sort_particles(Simulation<Dim>& sim) {
-  const Phase phase(sim.phases, PhaseName::sort);
-  const GridShape& shape = sim.grid->shape();
+void sort_particles(std::int64_t step, const SlabGrid& grid, Particles<Dim>& particles,
+                    CellOrder& cells) {
+  const GridShape& shape = grid.shape();
   const double inverse_cell = 1.0 / shape.cell;
-  Particles<Dim>& particles = sim.particles;
-  const std::size_t cells =
-      static_cast<std::size_t>(sim.grid->last_row() - sim.grid->first_row()) * shape.row_size;
-  std::vector<std::uint32_t>& cell = sim.cell_scratch;
-  cell.resize(particles.size());
+  const std::size_t count =
+      static_cast<std::size_t>(grid.last_row() - grid.first_row()) * shape.row_size;
+  cells.cell.resize(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    int index = row_of<Dim>(particles, p, shape, inverse_cell) - sim.grid->first_row();
-    if constexpr (Dim == 3) {
-      index = index * shape.nodes[1] +
-              stencil_base(shape.stencil, particles.position[1][p] * inverse_cell, shape.nodes[1]);
+    int index = row_of<Dim>(particles, p, shape, inverse_cell) - grid.first_row();
+    for (int a = Dim - 2; a >= 0; --a) {
+      index = index * shape.nodes[a] +
+              stencil_base(shape.stencil, particles.position[a][p] * inverse_cell, shape.nodes[a]);
     }
-    index = index * shape.nodes[0] +
-            stencil_base(shape.stencil, particles.position[0][p] * inverse_cell, shape.nodes[0]);
-    cell[p] = static_cast<std::uint32_t>(index);
+    cells.cell[p] = static_cast<std::uint32_t>(index);
   }
-  sort_by_cell(cell, cells, particles.grain, particles.id, sim.cells);
-  if (sim.clock.step % storage_interval == 0) {
-    reorder(sim.cells.order, particles);
-    std::iota(sim.cells.order.begin(), sim.cells.order.end(), 0U);
+  sort_by_cell(cells.cell, count, particles.grain, particles.id, cells);
+  if (step % storage_interval == 0) {
+    reorder(cells.order, particles);
+    std::iota(cells.order.begin(), cells.order.end(), 0U);
   }
 }
 
@@ -174,21 +170,6 @@ void distribute(Simulation<Dim>& sim) {
 }
 
 template <int Dim>
-void count_work(Simulation<Dim>& sim) {
-  const auto add = [&](Work kind, double units) {
-    sim.work.done[static_cast<std::size_t>(kind)] += units;
-  };
-  const double all = static_cast<double>(sim.particles.size());
-  const double asleep = static_cast<double>(sleeping_particles(sim));
-  add(Work::particle, all - asleep + sleeping_weight * asleep);
-  add(Work::recorded_particle, all);
-  if (!sim.grain_fields.fields.empty()) {
-    const std::vector<bool>& shared = sim.grain_fields.shared;
-    add(Work::contact_node, static_cast<double>(std::ranges::count(shared, true)));
-  }
-}
-
-template <int Dim>
 void rebalance(Simulation<Dim>& sim) {
   WorkMeter& work = sim.work;
   const std::int64_t steps = sim.clock.step - work.measured_step;
@@ -214,14 +195,12 @@ void rebalance(Simulation<Dim>& sim) {
   }
 }
 
-template void sort_particles<2>(Simulation<2>&);
-template void sort_particles<3>(Simulation<3>&);
+template void sort_particles<2>(std::int64_t, const SlabGrid&, Particles<2>&, CellOrder&);
+template void sort_particles<3>(std::int64_t, const SlabGrid&, Particles<3>&, CellOrder&);
 template void migrate<2>(Simulation<2>&);
 template void migrate<3>(Simulation<3>&);
 template void distribute<2>(Simulation<2>&);
 template void distribute<3>(Simulation<3>&);
-template void count_work<2>(Simulation<2>&);
-template void count_work<3>(Simulation<3>&);
 template void rebalance<2>(Simulation<2>&);
 template void rebalance<3>(Simulation<3>&);
 

@@ -7,6 +7,17 @@
 
 namespace poreshock {
 
+void count_work(std::int64_t particles, std::int64_t asleep, std::int64_t contact_nodes,
+                WorkMeter& work) {
+  const auto add = [&](Work kind, double units) {
+    work.done[static_cast<std::size_t>(kind)] += units;
+  };
+  const auto all = static_cast<double>(particles), still = static_cast<double>(asleep);
+  add(Work::particle, all - still + sleeping_weight * still);
+  add(Work::recorded_particle, all);
+  add(Work::contact_node, static_cast<double>(contact_nodes));
+}
+
 PerWork<double> work_seconds(const PhaseTable& phases) {
   PerWork<double> seconds{};
   const auto add = [&](Work kind, std::initializer_list<PhaseName> names) {

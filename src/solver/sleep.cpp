@@ -42,17 +42,15 @@ RowRange rows_at_ends(const Boundary& boundary, const GridShape& shape) {
 }  // namespace
 
 template <int Dim>
-RowRange disturbed_rows(const Simulation<Dim>& sim) {
-  const Scene& scene = sim.scene;
-  const GridShape& shape = sim.grid->shape();
+RowRange disturbed_rows(const Scene& scene, const std::vector<Material>& materials,
+                        const GridShape& shape, const Particles<Dim>& particles) {
   if (!can_sleep(scene)) return {0, shape.rows};
   Vector<Dim> undisturbed;
   for (int a = 0; a < Dim; ++a) undisturbed[a] = scene.loading.frame[a];
   undisturbed[Dim - 1] -= scene.loading.velocity;
   double sound = std::numeric_limits<double>::infinity();
-  for (const Material& m : sim.materials) sound = std::min(sound, longitudinal_sound_speed(m));
+  for (const Material& m : materials) sound = std::min(sound, longitudinal_sound_speed(m));
   const double least = least_disturbance * sound;
-  const Particles<Dim>& particles = sim.particles;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     double change = 0.0;
@@ -83,35 +81,35 @@ RowRange awake_around(RowRange disturbed, const GridShape& shape) {
   return {std::max(disturbed.first, reach) - reach, std::min(disturbed.last + reach, shape.rows)};
 }
 
-template <int Dim>
-std::int64_t sleeping_particles(const Simulation<Dim>& sim) {
-  const RowRange awake = awake_rows(sim.cells, *sim.grid);
-  return std::ssize(sim.cells.order) - (first_place(sim.cells, *sim.grid, awake.last) -
-                                        first_place(sim.cells, *sim.grid, awake.first));
+std::int64_t sleeping_particles(const CellOrder& cells, const SlabGrid& grid) {
+  const RowRange awake = awake_rows(cells, grid);
+  return std::ssize(cells.order) -
+         (first_place(cells, grid, awake.last) - first_place(cells, grid, awake.first));
 }
 
 template <int Dim>
-void move_sleeping(double dt, Simulation<Dim>& sim) {
-  const RowRange awake = awake_rows(sim.cells, *sim.grid);
+void move_sleeping(double dt, const CellOrder& cells, const SlabGrid& grid,
+                   Particles<Dim>& particles) {
+  const RowRange awake = awake_rows(cells, grid);
+  const Vector<Dim> velocity = grid_velocity<Dim>(grid.shape());
   const auto move = [&](int first_row, int last_row) {
-    const std::uint32_t last = first_place(sim.cells, *sim.grid, last_row);
-    for (std::uint32_t k = first_place(sim.cells, *sim.grid, first_row); k < last; ++k) {
-      const std::uint32_t p = sim.cells.order[k];
+    const std::uint32_t last = first_place(cells, grid, last_row);
+    for (std::uint32_t k = first_place(cells, grid, first_row); k < last; ++k) {
+      const std::uint32_t p = cells.order[k];
       for (int a = 0; a < Dim; ++a) {
-        const double v = sim.particles.velocity[a][p];
-        sim.particles.position[a][p] += dt * (v - sim.stress_settings.grid_velocity[a]);
+        particles.position[a][p] += dt * (particles.velocity[a][p] - velocity[a]);
       }
     }
   };
-  move(sim.grid->first_row(), awake.first);
-  move(awake.last, sim.grid->last_row());
+  move(grid.first_row(), awake.first);
+  move(awake.last, grid.last_row());
 }
 
-template RowRange disturbed_rows<2>(const Simulation<2>&);
-template RowRange disturbed_rows<3>(const Simulation<3>&);
-template std::int64_t sleeping_particles<2>(const Simulation<2>&);
-template std::int64_t sleeping_particles<3>(const Simulation<3>&);
-template void move_sleeping<2>(double, Simulation<2>&);
-template void move_sleeping<3>(double, Simulation<3>&);
+template RowRange disturbed_rows<2>(const Scene&, const std::vector<Material>&, const GridShape&,
+                                    const Particles<2>&);
+template RowRange disturbed_rows<3>(const Scene&, const std::vector<Material>&, const GridShape&,
+                                    const Particles<3>&);
+template void move_sleeping<2>(double, const CellOrder&, const SlabGrid&, Particles<2>&);
+template void move_sleeping<3>(double, const CellOrder&, const SlabGrid&, Particles<3>&);
 
 }  // namespace poreshock

@@ -28,26 +28,11 @@ double lone_stiffness(const Transfer& transfer) {
   });
 }
 
-/// Velocity of the background grid: it rides with walls, so that they stay on a line of nodes.
-template <int Dim>
-Vector<Dim> grid_velocity(const Scene& scene) {
-  Vector<Dim> velocity = Vector<Dim>::Zero();
-  for (int a = 0; a + 1 < Dim; ++a) {
-    if (side_law(scene.boundary.lateral[a]).mirrors) velocity[a] = scene.loading.frame[a];
-  }
-  const Side& low = scene.boundary.low;
-  const Side& high = scene.boundary.high;
-  const Side& fixed = side_law(low.kind).mirrors ? low : high;
-  if (side_law(fixed.kind).mirrors) {
-    velocity[Dim - 1] = fixed.velocity + scene.loading.frame[Dim - 1];
-  }
-  return velocity;
-}
-
 template <int Dim>
 Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim;
-  make_grid_shape(scene);  // refuses a grid that PETSc cannot count, before anything is made
+  // First of all: it refuses a grid that PETSc cannot count.
+  const Vector<Dim> velocity = grid_velocity<Dim>(make_grid_shape(scene));
   sim.scene = scene;
   sim.scene_text = write_scene(scene);
   sim.communicator = communicator;
@@ -64,7 +49,7 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.cell = scene.domain.cell;
   sim.stress_settings.cfl = scene.time.cfl;
   sim.stress_settings.stiffness = lone_stiffness(scene.transfer);
-  sim.stress_settings.grid_velocity = grid_velocity<Dim>(scene);
+  sim.stress_settings.grid_velocity = velocity;
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
   sim.particles.options.failed = can_fail(scene);
   sim.particles.options.facing = scene.contact.self;
@@ -78,9 +63,8 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
 }
 
 /// Number of integers that run_state() puts into a checkpoint.
-template <int Dim>
-std::size_t run_state_integers(const Simulation<Dim>& sim) {
-  return 5 + save(sim.ledger, MPI_COMM_SELF).size();
+std::size_t run_state_integers(const Ledger& ledger) {
+  return 5 + save(ledger, MPI_COMM_SELF).size();
 }
 
 }  // namespace
@@ -95,7 +79,7 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   find_grains(sim);
   distribute(sim);
   if (has_contact(sim)) {
-    sort_particles(sim);
+    sort_particles(0, *sim.grid, sim.particles, sim.cells);
     mark_surfaces(sim);
     split_by_colour(sim);
   }
@@ -104,8 +88,8 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   StepReport first;
   initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, first.stress);
-  take_report(first, sim);
-  sim.clock.disturbed = disturbed_rows(sim);
+  take_report(first, sim.conduction_limit, sim.clock, sim.ledger);
+  sim.clock.disturbed = disturbed_rows(scene, sim.materials, sim.grid->shape(), sim.particles);
   agree_on_step(false, sim.clock, communicator);
   return sim;
 }
@@ -118,10 +102,11 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   const ParticleOptions expected = sim.particles.options;
   read_checkpoint<Dim>(path, communicator, stored_scene, state, sim.particles);
   require_sound_state(path, scene, expected, state, sim.particles, communicator);
-  if (state.integers.size() != run_state_integers(sim)) {
+  if (state.integers.size() != run_state_integers(sim.ledger)) {
     throw InputError(path + ": written by another version of this program, its ledger has " +
                      std::to_string(state.integers.size()) + " numbers instead of " +
-                     std::to_string(run_state_integers(sim)) + "; restart with that version");
+                     std::to_string(run_state_integers(sim.ledger)) +
+                     "; restart with that version");
   }
   sim.clock.step = state.step;
   sim.work.measured_step = state.step;
@@ -138,7 +123,7 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   find_grains(sim);
   distribute(sim);
-  sim.clock.disturbed = disturbed_rows(sim);
+  sim.clock.disturbed = disturbed_rows(scene, sim.materials, sim.grid->shape(), sim.particles);
   agree_on_step(false, sim.clock, communicator);
   return sim;
 }

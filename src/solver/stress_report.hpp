@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
-#include "poreshock/solver/simulation.hpp"
+#include "poreshock/physics/stress.hpp"
+#include "poreshock/solver/ledger.hpp"
+#include "poreshock/solver/time_step.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 
 namespace poreshock {
@@ -15,16 +17,16 @@ struct StepReport {
 };
 
 /// Takes over limit of the step, bad particles, guards and heats.
-template <int Dim>
-inline void take_report(const StepReport& report, Simulation<Dim>& sim) {
-  sim.clock.limit = std::min(report.stress.dt_limit, sim.conduction_limit);
-  sim.clock.bad = report.stress.bad;
-  sim.ledger.guards.compression += report.stress.compression_guard;
-  sim.ledger.guards.sound_speed += report.stress.sound_speed_guard;
-  sim.ledger.guards.negative_heat += report.transfer.negative;
-  sim.ledger.viscous_heat += report.stress.viscous_heat;
-  sim.ledger.transfer_heat += report.transfer.heat;
-  sim.ledger.shortened += report.transfer.shortened;
+inline void take_report(const StepReport& report, double conduction_limit, Clock& clock,
+                        Ledger& ledger) {
+  clock.limit = std::min(report.stress.dt_limit, conduction_limit);
+  clock.bad = report.stress.bad;
+  ledger.guards.compression += report.stress.compression_guard;
+  ledger.guards.sound_speed += report.stress.sound_speed_guard;
+  ledger.guards.negative_heat += report.transfer.negative;
+  ledger.viscous_heat += report.stress.viscous_heat;
+  ledger.transfer_heat += report.transfer.heat;
+  ledger.shortened += report.transfer.shortened;
 }
 
 }  // namespace poreshock

@@ -62,4 +62,11 @@ class Phase {
   double start_;
 };
 
+/// Calls run() within a phase.
+template <class Run>
+void timed(PhaseTable& table, PhaseName name, Run&& run) {
+  const Phase phase(table, name);
+  run();
+}
+
 }  // namespace poreshock

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "poreshock/core/lanes.hpp"
+#include "poreshock/core/tensor.hpp"
 #include "poreshock/grid/partition.hpp"
 #include "poreshock/scene/scene.hpp"
 
@@ -28,11 +29,22 @@ struct GridShape {
   double cell = 0.0;                  ///< m
   std::array<int, 3> nodes{1, 1, 1};  ///< per axis: cells + 3
   std::array<bool, 2> periodic{};     ///< lateral axes
+  Triple velocity{};                  ///< m/s, of all nodes
   int row_size = 0;                   ///< nodes of one row
   int rows = 0;                       ///< node rows along the shock axis
 };
 
+/// The grid of a scene. It rides with walls, so that they stay on a line of nodes. Throws
+/// InputError where PETSc cannot count its nodes.
 GridShape make_grid_shape(const Scene& scene);
+
+/// Velocity of the nodes, m/s.
+template <int Dim>
+Vector<Dim> grid_velocity(const GridShape& shape) {
+  Vector<Dim> velocity;
+  for (int a = 0; a < Dim; ++a) velocity[a] = shape.velocity[static_cast<std::size_t>(a)];
+  return velocity;
+}
 
 /// Least rows per slab for this stencil (seam depth, and mirror nodes at the walls).
 SlabLimits slab_limits(const GridShape& shape);

@@ -17,6 +17,7 @@ struct RowRange {
 struct CellOrder {
   std::vector<std::uint32_t> start;  ///< cells + 1 entries
   std::vector<std::uint32_t> order;  ///< indices into the particle columns
+  std::vector<std::uint32_t> cell;   ///< of each particle as stored, when they were sorted
   /// Rows that a step works on, of the whole grid; the particles of all others only move.
   RowRange awake = {0, std::numeric_limits<int>::max()};
 };

@@ -12,7 +12,7 @@ template <int Dim>
 void integrate_momentum(const Vector<Dim>& body_force, double dt, SlabGrid& grid);
 
 /// Adds the work and impulse of the body force over this step on owned nodes. Call after the
-/// boundaries, only when there is a body force. Not collective.
+/// boundaries. Not collective.
 template <int Dim>
 void add_body_work(const Vector<Dim>& body_force, double dt, const SlabGrid& grid,
                    NodeLedger& ledger);

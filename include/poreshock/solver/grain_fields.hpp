@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "poreshock/core/phase.hpp"
 #include "poreshock/grid/grain_colours.hpp"
 #include "poreshock/output/history.hpp"
 #include "poreshock/particles/cell_order.hpp"
@@ -47,6 +49,19 @@ void find_grains(Simulation<Dim>& sim);
 template <int Dim>
 void split_by_colour(Simulation<Dim>& sim);
 
+/// A velocity field as the sweeps of a step see it: its particles and its nodes.
+struct FieldView {
+  const CellOrder* cells = nullptr;
+  SlabGrid* grid = nullptr;
+};
+
+/// The velocity fields of a step: that of all particles, or one for each colour or quarter.
+std::vector<FieldView> velocity_fields(const CellOrder& cells, SlabGrid& grid,
+                                       const GrainFields& fields);
+
+/// Nodes of the last split at which grains met in the last step, on this rank.
+std::int64_t contact_nodes(const GrainFields& fields);
+
 /// Between the momentum update and the boundaries: surfaces of the grains at shared nodes, and
 /// their collisions. Nothing with a single colour. Collective (one exchange per field).
 template <int Dim>
@@ -72,11 +87,9 @@ std::vector<std::int32_t> particle_colours(const Simulation<Dim>& sim);
 template <int Dim>
 void mark_surfaces(Simulation<Dim>& sim);
 
-/// With self-contact: puts the nodal sums of all fields on the two of for_each_side, and back.
-template <int Dim>
-void join_fields(Simulation<Dim>& sim);
-template <int Dim>
-void spread_fields(Simulation<Dim>& sim);
+/// With self-contact: puts the nodal sums of all fields on the first two, and back.
+void join_fields(const GrainFields& fields);
+void spread_fields(const GrainFields& fields);
 
 /// Contact of the last step over all ranks, for the history. Collective.
 template <int Dim>
@@ -85,24 +98,23 @@ ContactRow contact_row(const Simulation<Dim>& sim);
 /// Gives the grids of all fields back, before the slabs change.
 void release_fields(GrainFields& fields);
 
-/// Calls visit(cells, grid) for every velocity field.
-template <int Dim, class Visit>
-void for_each_field(Simulation<Dim>& sim, Visit&& visit) {
-  if (sim.grain_fields.fields.empty()) return visit(sim.cells, *sim.grid);
-  for (VelocityField& field : sim.grain_fields.fields) {
-    visit(field.cells, *field.grid);
-  }
-}
-
-/// Calls visit(cells, grid) for every velocity field that moves by itself: all of them,
-/// or the two sides of self-contact.
-template <int Dim, class Visit>
-void for_each_side(Simulation<Dim>& sim, Visit&& visit) {
-  if (!sim.scene.contact.self) return for_each_field(sim, visit);
-  for (int side = 0; side < 2; ++side) {
-    const VelocityField& field = sim.grain_fields.fields[static_cast<std::size_t>(side)];
-    visit(field.cells, *field.grid);
-  }
+/// Moves the nodes of all velocity fields: momentum(grid), collisions with an exchange of surfaces,
+/// boundaries(grid). Fields that move by themselves are all, or the two sides of self-contact.
+/// Collective.
+template <int Dim, class Momentum, class Boundaries>
+void move_nodes(double dt, std::span<const FieldView> fields, Momentum&& momentum,
+                Boundaries&& boundaries, Simulation<Dim>& sim) {
+  if (!sim.grain_fields.sides.empty()) fields = fields.first(2);
+  timed(sim.phases, PhaseName::grid_update, [&] {
+    join_fields(sim.grain_fields);
+    for (const FieldView& field : fields) momentum(*field.grid);
+  });
+  timed(sim.phases, PhaseName::contact, [&] { collide(dt, sim); });
+  timed(sim.phases, PhaseName::grid_update, [&] {
+    for (const FieldView& field : fields) boundaries(*field.grid);
+    finish_contact(sim);
+    spread_fields(sim.grain_fields);
+  });
 }
 
 }  // namespace poreshock

@@ -8,7 +8,8 @@ namespace poreshock {
 /// Sorts the particles of this rank into canonical order by an index; every 20 steps the storage
 /// follows. Not collective.
 template <int Dim>
-void sort_particles(Simulation<Dim>& sim);
+void sort_particles(std::int64_t step, const SlabGrid& grid, Particles<Dim>& particles,
+                    CellOrder& cells);
 
 /// After a step: wraps periodic sides, puts particles back that crossed a wall (counted), books and
 /// removes those that left through an open side, and hands over those whose row belongs to a
@@ -25,9 +26,5 @@ void distribute(Simulation<Dim>& sim);
 /// exceeds what it costs. Collective.
 template <int Dim>
 void rebalance(Simulation<Dim>& sim);
-
-/// Adds what this rank did in a step to its meter. Not collective.
-template <int Dim>
-void count_work(Simulation<Dim>& sim);
 
 }  // namespace poreshock

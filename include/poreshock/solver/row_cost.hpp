@@ -30,6 +30,11 @@ struct WorkMeter {
   std::int64_t cuts = 0;           ///< times the slabs were cut anew while running
 };
 
+/// Adds what this rank did in a step, in which of its particles some were asleep and grains met at
+/// some nodes.
+void count_work(std::int64_t particles, std::int64_t asleep, std::int64_t contact_nodes,
+                WorkMeter& work);
+
 /// Seconds this rank has spent in the phases of each kind of work.
 PerWork<double> work_seconds(const PhaseTable& phases);
 

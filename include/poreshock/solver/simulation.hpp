@@ -36,7 +36,6 @@ struct Simulation {
   Clock clock;
   Ledger ledger;
   CellOrder cells;
-  std::vector<std::uint32_t> cell_scratch;
   StepData<Dim> step_data;
   std::unique_ptr<SlabGrid> grid;
   GrainFields grain_fields;        ///< only used where grains of two colours exist
@@ -71,7 +70,7 @@ RunState run_state(const Simulation<Dim>& sim);
 /// Displacement of the grid origin since the start, m.
 template <int Dim>
 Vector<Dim> grid_shift(const Simulation<Dim>& sim) {
-  return sim.stress_settings.grid_velocity * sim.clock.time;
+  return grid_velocity<Dim>(sim.grid->shape()) * sim.clock.time;
 }
 
 }  // namespace poreshock
