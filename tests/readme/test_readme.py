@@ -26,7 +26,8 @@ FOLDERS = (".", "input", "input/first_hour", "src", "src/physics", "src/morpholo
 # What a command is called with here so that it ends soon; every other one runs as it stands.
 SHORTENED = {
     "tools/run input/porous_aluminium.toml": ["--set", "domain.size=[0.1e-3,0.6e-3]", "--set", "sample.height=0.5e-3",
-                                              "--set", "sample.void_radius=20e-6", "--set", "sample.ligament=0"],
+                                              "--set", "sample.void_radius=20e-6", "--set", "sample.ligament=0",
+                                              "--set", "domain.cell=5e-6", "--set", "time.end=255e-9"],
     "tools/run input/plate_impact.toml": ["--set", "time.end=50e-9"],
     "tools/run output/first_hour/voids.toml": ["--set", "domain.cell=10e-6"],
     "jobscripts/plain.sh": ["--set", "time.end=10e-9"],
