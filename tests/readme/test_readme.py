@@ -172,8 +172,9 @@ class Commands(unittest.TestCase):
         for table, least in (("[domain]", 'domain.size = [1e-4, 2e-4]\ndomain.cell = 1e-5\n'), ("[sample]", 'sample.kind = "solid"\n'),
                              ("[time]", "time.end = 1e-8\n"), ("[[material]]", 'material = [{ name = "copper" }]\n')):
             text = text if table in text else least + text
-        (self.root / "scene.toml").write_text(text)
-        self.run_line(f"{PROGRAM} check scene.toml")
+        (self.root / "output").mkdir(exist_ok=True)
+        (self.root / "output/scene.toml").write_text(text)
+        self.run_line(f"{PROGRAM} check output/scene.toml")
 
     def run_page(self, name):
         """What the Python of the page prints."""
