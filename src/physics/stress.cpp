@@ -102,14 +102,21 @@ using BlockCopy = ParticleColumns<Dim, BlockColumn>;
 template <int Dim, class Visitor>
 void for_each_stress_column(const ParticlePointers<Dim>& all, ParticlePointers<Dim>& block,
                             BlockCopy<Dim>& copy, Visitor&& visit) {
-  for_each_entry(
-      [&](const auto& entry, auto&... members) {
-        if (entry.use.stress == InStress::unused) return;
-        for_each_component([&](int, const auto& source, auto& local,
-                               auto& room) { visit(entry.use.stress, source, local, room.values); },
-                           members...);
-      },
-      all, block, copy);
+  const auto at = [&]<std::size_t I>() {
+    // Constants: looked up at run time, the tables cost more than the copies.
+    constexpr auto entry = std::get<I>(ParticlePointers<Dim>::columns());
+    constexpr auto member = std::get<I>(BlockCopy<Dim>::columns()).member;
+    if constexpr (entry.use.stress != InStress::unused) {
+      if (entry.use.option != nullptr && !(all.options.*entry.use.option)) return;
+      for_each_component([&](int, auto* source, auto*& local,
+                             auto& room) { visit(entry.use.stress, source, local, room.values); },
+                         all.*entry.member, block.*entry.member, copy.*member);
+    }
+  };
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (at.template operator()<I>(), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<decltype(BlockCopy<Dim>::columns())>>{});
 }
 
 template <int Dim>
