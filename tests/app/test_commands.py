@@ -1,6 +1,6 @@
 """The commands that run nothing: check, sample, info, and the options that print and end."""
-import math
 import json
+import math
 import re
 import shutil
 import subprocess
