@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-BASE = ("core", "files", "image", "material", "scene", "particles", "grid")  # each may include those before it
+BASE = ("core", "files", "image", "particles", "material", "scene", "grid")  # each may include those before it
 MAY_INCLUDE = {layer: set(BASE[:i]) for i, layer in enumerate(BASE)}
 MAY_INCLUDE |= {
     "sample": set(BASE),

@@ -5,8 +5,8 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/morphology/lattice_map.hpp"
-#include "poreshock/particles/derived.hpp"
 #include "poreshock/scene/read_scene.hpp"
 
 namespace poreshock {

@@ -68,6 +68,11 @@ Material make_material(const MaterialParameters& p) {
   return m;
 }
 
+void ask_for_columns(const MaterialParameters& p, ParticleOptions& options) {
+  if (p.kinematic_share > 0.0) options.back_stress = true;
+  if (p.spall > 0.0) options.failed = true;
+}
+
 MaterialPhase material_phase(const Material& m, Thermal thermal, const ThermalState& state) {
   const bool paper = thermal == Thermal::paper;
   const double heat = paper ? state.plastic_work

@@ -7,7 +7,8 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/files/posix_file.hpp"
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "root_attributes.hpp"
 
 namespace poreshock {

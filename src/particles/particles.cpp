@@ -66,6 +66,33 @@ void unpack(const std::byte* buffer, std::size_t count, Particles<Dim>& particle
   });
 }
 
+template <int Dim>
+std::array<double, Dim> mode_squares(const Particles<Dim>& particles, double inertia,
+                                     std::size_t p) {
+  std::array<double, Dim> squares{};
+  if (particles.options.affine) {
+    for (std::size_t k = 0; k < particles.affine.size(); ++k) {
+      squares[k / Dim] += inertia * (particles.affine[k][p] * particles.affine[k][p]);
+    }
+  }
+  if (particles.options.quadratic) {
+    for (std::size_t k = 0; k < particles.quadratic.size(); ++k) {
+      squares[k / second_modes<Dim>] += particles.quadratic[k][p] * particles.quadratic[k][p];
+    }
+  }
+  return squares;
+}
+
+template <int Dim>
+double kinetic_energy(const Particles<Dim>& particles, double inertia, std::size_t p) {
+  const std::array<double, Dim> modes = mode_squares(particles, inertia, p);
+  double square = 0.0;
+  for (int a = 0; a < Dim; ++a) {
+    square += particles.velocity[a][p] * particles.velocity[a][p] + modes[a];
+  }
+  return 0.5 * square;
+}
+
 template void resize<2>(Particles<2>&, std::size_t);
 template void resize<3>(Particles<3>&, std::size_t);
 template void reorder<2>(const std::vector<std::uint32_t>&, Particles<2>&);
@@ -80,5 +107,10 @@ template void pack<3>(const Particles<3>&, const std::vector<std::uint32_t>&,
                       std::vector<std::byte>&);
 template void unpack<2>(const std::byte*, std::size_t, Particles<2>&);
 template void unpack<3>(const std::byte*, std::size_t, Particles<3>&);
+
+template std::array<double, 2> mode_squares<2>(const Particles<2>&, double, std::size_t);
+template std::array<double, 3> mode_squares<3>(const Particles<3>&, double, std::size_t);
+template double kinetic_energy<2>(const Particles<2>&, double, std::size_t);
+template double kinetic_energy<3>(const Particles<3>&, double, std::size_t);
 
 }  // namespace poreshock

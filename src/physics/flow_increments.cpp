@@ -1,6 +1,6 @@
 #include "flow_increments.hpp"
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 
 namespace poreshock {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {

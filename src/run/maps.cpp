@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/morphology/lattice_map.hpp"
-#include "poreshock/particles/derived.hpp"
 
 namespace poreshock {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "quanta.hpp"
 
 namespace poreshock {

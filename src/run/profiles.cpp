@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "quanta.hpp"
 
 namespace poreshock {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/solver/ledger.hpp"
 
 namespace poreshock {

@@ -3,12 +3,12 @@
 #include "maps.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/output/folder.hpp"
 #include "poreshock/output/morphology_file.hpp"
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
-#include "poreshock/particles/derived.hpp"
 #include "poreshock/run/measure.hpp"
 #include "poreshock/run/profiles.hpp"
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "poreshock/scene/scene.hpp"
+#include "poreshock/particles/particles.hpp"
+#include "poreshock/scene/particle_options.hpp"
 
 namespace poreshock::scene_text {
 
@@ -33,11 +34,17 @@ inline bool may_have_contact(const Scene& scene) {
   });
 }
 
-/// The particle datasets of a scene: the common ones and those of the physics it asks for.
+/// The particle datasets of a scene: the common ones, then the other columns that are shown.
 inline std::vector<std::string> datasets_of(const Scene& scene) {
   std::vector<std::string> names = particle_datasets;
-  if (scene.thermal == Thermal::paper && conducts_heat(scene)) names.push_back("conducted_heat");
-  if (can_fail(scene)) names.push_back("failed");
+  Particles<2> particles;
+  particles.options = particle_options(scene);
+  for_each_entry(
+      [&](const auto& entry, const auto&) {
+        const bool known = std::find(names.begin(), names.end(), entry.name) != names.end();
+        if (entry.use.shown && !known) names.emplace_back(entry.name);
+      },
+      particles);
   if (can_melt(scene)) names.push_back("molten");
   if (may_have_contact(scene)) names.push_back("colour");
   return names;

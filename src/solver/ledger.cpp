@@ -6,7 +6,8 @@
 #include <type_traits>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 

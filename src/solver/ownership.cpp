@@ -6,8 +6,9 @@
 #include "poreshock/core/memory.hpp"
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/core/shape.hpp"
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/particles/exchange.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {

@@ -4,6 +4,7 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/scene/particle_options.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/check_state.hpp"
@@ -38,12 +39,9 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.communicator = communicator;
   for (const MaterialParameters& parameters : scene.materials) {
     sim.materials.push_back(make_material(parameters));
-    if (parameters.kinematic_share > 0.0) sim.particles.options.back_stress = true;
     sim.sound_speed = std::max(sim.sound_speed, longitudinal_sound_speed(sim.materials.back()));
   }
-  const Modes modes = scheme_of(scene.transfer.velocity).modes;
-  sim.particles.options.affine = modes != Modes::constant;
-  sim.particles.options.quadratic = modes == Modes::quadratic;
+  sim.particles.options = particle_options(scene);
   sim.stress_settings.thermal = scene.thermal;
   sim.stress_settings.viscosity = scene.viscosity;
   sim.stress_settings.cell = scene.domain.cell;
@@ -51,13 +49,10 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   sim.stress_settings.stiffness = lone_stiffness(scene.transfer);
   sim.stress_settings.grid_velocity = velocity;
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
-  sim.particles.options.failed = can_fail(scene);
-  sim.particles.options.facing = scene.contact.self;
-  const bool conducts = conducts_heat(scene);
-  sim.particles.options.conducted_heat = conducts && scene.thermal == Thermal::paper;
   sim.conduction_limit =
-      conducts ? conduction_limit(sim.materials, scene.transfer.shape, Dim, scene.domain.cell)
-               : std::numeric_limits<double>::infinity();
+      conducts_heat(scene)
+          ? conduction_limit(sim.materials, scene.transfer.shape, Dim, scene.domain.cell)
+          : std::numeric_limits<double>::infinity();
   sim.phases = make_phase_table();
   return sim;
 }

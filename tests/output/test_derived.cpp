@@ -1,5 +1,5 @@
 // Derived fields against numbers computed by hand.
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 
 #include "output/scenes.hpp"
 #include "output/support.hpp"

@@ -8,10 +8,10 @@
 #include "output/support.hpp"
 #include "poreshock/files/block_hash.hpp"
 #include "poreshock/files/hdf5_file.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/output/info.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
-#include "poreshock/particles/derived.hpp"
 
 namespace poreshock {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/physics/heat.hpp"
 #include "support/aluminium.hpp"
 #include "transfer/cloud.hpp"

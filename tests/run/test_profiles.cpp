@@ -4,8 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/run/profiles.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/ledger.hpp"
 #include "support/runs.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "poreshock/material/library.hpp"
 #include "poreshock/scene/keys.hpp"
+#include "poreshock/scene/particle_options.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "scene_text.hpp"
 
@@ -125,7 +126,7 @@ TEST(Scenes, EveryKeyOf2D) {
   EXPECT_EQ(scene.time.cfl, 0.3);
   EXPECT_EQ(scene.materials[0].spall, 1e9);
   EXPECT_EQ(scene.materials[1].spall, 0.0);
-  EXPECT_TRUE(can_fail(scene));
+  EXPECT_TRUE(particle_options(scene).failed);
   EXPECT_TRUE(scene.conduction.on);
   EXPECT_TRUE(conducts_heat(scene));
   EXPECT_EQ(scene.time.max_steps, 1000000000000);

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
 

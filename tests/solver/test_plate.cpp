@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "support/aluminium.hpp"
 #include "support/reference_shock.hpp"
 #include "support/runs.hpp"

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "poreshock/material/derived.hpp"
 #include "poreshock/output/checkpoint.hpp"
-#include "poreshock/particles/derived.hpp"
 #include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 #include "poreshock/run/checksum.hpp"
 #include "poreshock/scene/transfer_scheme.hpp"
 #include "support/runs.hpp"

@@ -22,6 +22,10 @@ inline constexpr int symmetric_size = Dim == 2 ? 4 : 6;
 template <int Dim>
 using SymmetricTensor = std::array<double, symmetric_size<Dim>>;
 
+/// Products r_a r_b of the components of a vector: xx, yy(, zz), then xy(, yz, zx).
+template <int Dim>
+inline constexpr int second_modes = Dim*(Dim + 1) / 2;
+
 /// a . b, summed in the order of the components.
 template <int Dim>
 inline double dot(const Vector<Dim>& a, const Vector<Dim>& b) {

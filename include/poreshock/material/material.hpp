@@ -10,6 +10,7 @@
 #include "poreshock/material/j2_plasticity.hpp"
 #include "poreshock/material/melting.hpp"
 #include "poreshock/material/mie_gruneisen.hpp"
+#include "poreshock/particles/particles.hpp"
 
 namespace poreshock {
 
@@ -97,6 +98,9 @@ struct Material {
 
 /// Constants of a material from its parameters.
 Material make_material(const MaterialParameters& parameters);
+
+/// Sets the options of the columns that a material needs. Pure function.
+void ask_for_columns(const MaterialParameters& parameters, ParticleOptions& options);
 
 /// State of one particle that its temperature depends on.
 struct ThermalState {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "poreshock/core/tensor.hpp"
-#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 
@@ -200,5 +199,15 @@ void pack(const Particles<Dim>& source, const std::vector<std::uint32_t>& indice
 /// Appends the `count` particles packed by pack() to `particles`. Not collective.
 template <int Dim>
 void unpack(const std::byte* buffer, std::size_t count, Particles<Dim>& particles);
+
+/// Squares of what the modes of particle p beyond its velocity add to its kinetic energy, for each
+/// component, m^2/s^2; `inertia` of affine_inertia.
+template <int Dim>
+std::array<double, Dim> mode_squares(const Particles<Dim>& particles, double inertia,
+                                     std::size_t p);
+
+/// Kinetic energy of particle p with all its modes, J/kg.
+template <int Dim>
+double kinetic_energy(const Particles<Dim>& particles, double inertia, std::size_t p);
 
 }  // namespace poreshock

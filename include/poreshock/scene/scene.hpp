@@ -247,10 +247,4 @@ inline bool can_melt(const Scene& scene) {
                      [](const MaterialParameters& m) { return m.melting != MeltingLaw::none; });
 }
 
-/// True when some material has a spall strength.
-inline bool can_fail(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const MaterialParameters& m) { return m.spall > 0.0; });
-}
-
 }  // namespace poreshock

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "poreshock/core/shape.hpp"
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
@@ -15,10 +16,6 @@ namespace poreshock {
 /// Modes of the velocity around a particle: v; + A r; + all products r_a r_b (cubic splines only),
 /// r = (x_i - x_p)/cell.
 enum class Modes { constant, affine, quadratic };
-
-/// Modes of second order: xx, yy(, zz), then xy(, yz, zx), in the order of a rate.
-template <int Dim>
-inline constexpr int second_modes = Dim*(Dim + 1) / 2;
 
 /// Modes after the velocity itself.
 template <int Dim, Modes M>
@@ -92,6 +89,16 @@ inline void with_scheme(const Transfer& transfer, Run&& run) {
       (try_one.template operator()<I>(), ...);
     }
     (std::make_index_sequence<transfer_schemes.size()>{});
+  });
+}
+
+/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an
+/// affine particle is (|v|^2 + inertia |C|^2) / 2. Zero for transfers without affine modes.
+inline double affine_inertia(const Transfer& transfer, double cell) {
+  if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
+  return of_shape(transfer.shape, [cell]<class Shape>(const Shape&) {
+    if constexpr (has_inertia<Shape>) return cell * cell / Shape::inverse_inertia;
+    return 0.0;
   });
 }
 

@@ -7,7 +7,6 @@
 
 #include "poreshock/material/material.hpp"
 #include "poreshock/particles/particles.hpp"
-#include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
 
@@ -39,19 +38,5 @@ template <int Dim>
 std::int64_t derive_field(std::string_view name, const Particles<Dim>& particles,
                           const std::vector<Material>& materials, Thermal thermal,
                           std::vector<double>& out);
-
-/// Square of the radius of gyration of the shape function, m^2: kinetic energy per mass of an
-/// affine particle is (|v|^2 + inertia |C|^2) / 2. Zero for transfers without affine modes.
-double affine_inertia(const Transfer& transfer, double cell);
-
-/// Squares of what the modes of particle p beyond its velocity add to its kinetic energy, for each
-/// component, m^2/s^2; `inertia` of affine_inertia.
-template <int Dim>
-std::array<double, Dim> mode_squares(const Particles<Dim>& particles, double inertia,
-                                     std::size_t p);
-
-/// Kinetic energy of particle p with all its modes, J/kg.
-template <int Dim>
-double kinetic_energy(const Particles<Dim>& particles, double inertia, std::size_t p);
 
 }  // namespace poreshock

@@ -1,4 +1,4 @@
-#include "poreshock/particles/derived.hpp"
+#include "poreshock/material/derived.hpp"
 
 #include <array>
 #include <cmath>
@@ -111,46 +111,6 @@ template MaterialPhase particle_phase<2>(const Particles<2>&, const std::vector<
                                          std::size_t);
 template MaterialPhase particle_phase<3>(const Particles<3>&, const std::vector<Material>&, Thermal,
                                          std::size_t);
-double affine_inertia(const Transfer& transfer, double cell) {
-  if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
-  return of_shape(transfer.shape, [cell]<class Shape>(const Shape&) {
-    if constexpr (has_inertia<Shape>) return cell * cell / Shape::inverse_inertia;
-    return 0.0;
-  });
-}
-
-template <int Dim>
-std::array<double, Dim> mode_squares(const Particles<Dim>& particles, double inertia,
-                                     std::size_t p) {
-  std::array<double, Dim> squares{};
-  if (particles.options.affine) {
-    for (std::size_t k = 0; k < particles.affine.size(); ++k) {
-      squares[k / Dim] += inertia * (particles.affine[k][p] * particles.affine[k][p]);
-    }
-  }
-  if (particles.options.quadratic) {
-    for (std::size_t k = 0; k < particles.quadratic.size(); ++k) {
-      squares[k / second_modes<Dim>] += particles.quadratic[k][p] * particles.quadratic[k][p];
-    }
-  }
-  return squares;
-}
-
-template <int Dim>
-double kinetic_energy(const Particles<Dim>& particles, double inertia, std::size_t p) {
-  const std::array<double, Dim> modes = mode_squares(particles, inertia, p);
-  double square = 0.0;
-  for (int a = 0; a < Dim; ++a) {
-    square += particles.velocity[a][p] * particles.velocity[a][p] + modes[a];
-  }
-  return 0.5 * square;
-}
-
-template std::array<double, 2> mode_squares<2>(const Particles<2>&, double, std::size_t);
-template std::array<double, 3> mode_squares<3>(const Particles<3>&, double, std::size_t);
-template double kinetic_energy<2>(const Particles<2>&, double, std::size_t);
-template double kinetic_energy<3>(const Particles<3>&, double, std::size_t);
-
 template std::int64_t derive_field<2>(std::string_view, const Particles<2>&,
                                       const std::vector<Material>&, Thermal, std::vector<double>&);
 template std::int64_t derive_field<3>(std::string_view, const Particles<3>&,
