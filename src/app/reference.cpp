@@ -14,8 +14,9 @@ namespace {
 
 std::string strengths(const MaterialParameters& material) {
   std::string text = "linear";
-  if (has_strength(material, StrengthModel::johnson_cook)) text += ", johnson_cook";
-  if (has_strength(material, StrengthModel::steinberg_guinan)) text += ", steinberg_guinan";
+  for_each_flow_law(material, [&](StrengthModel model, const auto& law) {
+    if (has_strength(material, model)) text.append(", ").append(law.name);
+  });
   return text;
 }
 
@@ -56,16 +57,13 @@ std::string describe_materials(const std::string& name) {
   MaterialParameters linear = material->parameters;
   std::string text = "# " + material->about + "\n# source: " + material->source + "\n";
   text += write_material(linear);
-  for (const StrengthModel model : {StrengthModel::johnson_cook, StrengthModel::steinberg_guinan}) {
-    if (!has_strength(linear, model)) continue;
+  for_each_flow_law(linear, [&](StrengthModel model, const auto& law) {
+    if (!has_strength(linear, model)) return;
     MaterialParameters other = linear;
     other.strength = model;
     const std::string all = write_material(other);
-    text += "\n# with strength = " +
-            std::string(model == StrengthModel::johnson_cook ? "\"johnson_cook\""
-                                                             : "\"steinberg_guinan\"") +
-            all.substr(all.find("\n\n"));
-  }
+    text += "\n# with strength = \"" + std::string(law.name) + "\"" + all.substr(all.find("\n\n"));
+  });
   return text;
 }
 

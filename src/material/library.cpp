@@ -166,15 +166,11 @@ const LibraryMaterial* library_material(std::string_view name) {
 }
 
 bool has_strength(const MaterialParameters& material, StrengthModel model) {
-  switch (model) {
-    case StrengthModel::linear:
-      return true;
-    case StrengthModel::johnson_cook:
-      return material.johnson_cook != JohnsonCookParameters{};
-    case StrengthModel::steinberg_guinan:
-      return material.steinberg_guinan != SteinbergGuinanParameters{};
-  }
-  return false;
+  bool has = model == StrengthModel::linear;
+  for_each_flow_law(material, [&]<class Law>(StrengthModel law, const Law& parameters) {
+    if (law == model) has = parameters != Law{};
+  });
+  return has;
 }
 
 }  // namespace poreshock

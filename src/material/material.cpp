@@ -6,34 +6,6 @@ namespace poreshock {
 
 namespace {
 
-FlowStress johnson_cook(const JohnsonCookParameters& p) {
-  FlowStress law;
-  law.start = p.yield;
-  law.hardening = p.hardening;
-  law.exponent = p.exponent;
-  law.rate = p.rate;
-  law.reference_rate = p.reference_rate;
-  law.softening = p.softening;
-  law.melting = p.melting;
-  law.reference_temperature = p.reference_temperature;
-  return law;
-}
-
-FlowStress steinberg_guinan(const SteinbergGuinanParameters& p) {
-  FlowStress law;
-  // Y0 (1 + beta e)^n = Y0 beta^n (1/beta + e)^n.
-  const bool hardens = p.hardening > 0.0;
-  law.start = hardens ? 0.0 : p.yield;
-  law.hardening = hardens ? p.yield * positive_power(p.hardening, p.exponent) : 0.0;
-  law.exponent = p.exponent;
-  law.initial_strain = hardens ? 1.0 / p.hardening + p.initial_strain : 0.0;
-  law.limit = p.limit;
-  law.pressure_rise = p.pressure_rise;
-  law.temperature_fall = p.temperature_fall;
-  law.reference_temperature = p.reference_temperature;
-  return law;
-}
-
 /// Linear hardening as a flow stress, which can then fall with the molten share.
 FlowStress linear_flow(const MaterialParameters& p) {
   FlowStress law;
@@ -53,14 +25,14 @@ Material make_material(const MaterialParameters& p) {
     m.strength.isotropic = (1.0 - p.kinematic_share) * p.hardening;
     m.strength.kinematic = p.kinematic_share * p.hardening;
   }
-  if (p.strength == StrengthModel::johnson_cook) m.flow = johnson_cook(p.johnson_cook);
-  if (p.strength == StrengthModel::steinberg_guinan) {
-    m.flow = steinberg_guinan(p.steinberg_guinan);
-  }
+  for_each_flow_law(p, [&](StrengthModel model, const auto& parameters) {
+    if (p.strength == model) m.flow = make_law(parameters);
+  });
   m.temperature = make_temperature_curve(m.eos);
   if (p.melting != MeltingLaw::none) {
     m.melt = make_melt_curve(p.melting, p.melt, m.eos, m.temperature);
-    if (!m.flow && m.strength.shear > 0.0) m.flow = linear_flow(p);
+    const bool no_law = std::holds_alternative<std::monostate>(m.flow);
+    if (no_law && m.strength.shear > 0.0) m.flow = linear_flow(p);
   }
   m.plastic_heat = p.plastic_heat;
   m.conductivity = p.conductivity;
@@ -71,6 +43,11 @@ Material make_material(const MaterialParameters& p) {
 void ask_for_columns(const MaterialParameters& p, ParticleOptions& options) {
   if (p.kinematic_share > 0.0) options.back_stress = true;
   if (p.spall > 0.0) options.failed = true;
+  for_each_flow_law(p, [&]<class Law>(StrengthModel model, const Law&) {
+    if constexpr (requires { Law::column; }) {
+      if (p.strength == model) options.*Law::column = true;
+    }
+  });
 }
 
 MaterialPhase material_phase(const Material& m, Thermal thermal, const ThermalState& state) {

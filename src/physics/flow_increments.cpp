@@ -26,41 +26,37 @@ template <int Dim>
   }
 }
 
-[[gnu::flatten]] void solve(const FlowStress& constants, double shear, double dt,
-                            const double* equivalent, const double* factors, const double* strain,
-                            std::size_t count, double* increments) {
-  const FlowStress law = constants;
-#pragma GCC ivdep
-  for (std::size_t k = 0; k < count; ++k) {
-    increments[k] = plastic_increment(law, {equivalent[k], 3.0 * shear, factors[k], strain[k], dt});
-  }
-}
-
 }  // namespace
 
 template <int Dim>
-void plastic_increments(const std::vector<Material>& materials, Thermal thermal,
+bool plastic_increments(const std::vector<Material>& materials, Thermal thermal,
                         const Particles<Dim>& particles, std::span<const std::uint32_t> places,
                         const Columns<Dim>& c, double dt, double* increments) {
-  const auto material = static_cast<std::size_t>(particles.material[places[0]]);
-  const auto& m = materials[material];
-  double equivalent[block_size], factors[block_size];
+  const Material& m = materials[static_cast<std::size_t>(particles.material[places[0]])];
+  if (std::holds_alternative<std::monostate>(m.flow)) return false;
+  double equivalent[block_size], temperatures[block_size], molten[block_size];
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t i = places[k];
-    const MaterialPhase phase = particle_phase<Dim>(particles, materials, thermal, i);
-    factors[k] = (1.0 - phase.molten) * thermal_factor(*m.flow, particles.pressure[i],
-                                                       particles.density[i] / m.eos.density,
-                                                       phase.temperature);
+    const auto phase = particle_phase<Dim>(particles, materials, thermal, places[k]);
+    temperatures[k] = phase.temperature;
+    molten[k] = phase.molten;
   }
   trial_norms<Dim>(c, m.strength.shear, dt, places.size(), equivalent);
-  solve(*m.flow, m.strength.shear, dt, equivalent, factors, c.particle.plastic_strain,
-        places.size(), increments);
+  const FlowBlock<Dim> block{c.particle, places.size(),    equivalent,    temperatures,
+                             molten,     m.strength.shear, m.eos.density, dt};
+  std::visit(
+      [&](const auto& law) {
+        if constexpr (requires { find_increments(law, block, increments); }) {
+          find_increments(law, block, increments);
+        }
+      },
+      m.flow);
+  return true;
 }
 
-template void plastic_increments<2>(const std::vector<Material>&, Thermal, const Particles<2>&,
+template bool plastic_increments<2>(const std::vector<Material>&, Thermal, const Particles<2>&,
                                     std::span<const std::uint32_t>, const Columns<2>&, double,
                                     double*);
-template void plastic_increments<3>(const std::vector<Material>&, Thermal, const Particles<3>&,
+template bool plastic_increments<3>(const std::vector<Material>&, Thermal, const Particles<3>&,
                                     std::span<const std::uint32_t>, const Columns<3>&, double,
                                     double*);
 

@@ -7,12 +7,12 @@
 
 namespace poreshock {
 
-/// Plastic increments of the particles at `places`, all of one material that has a flow stress, for
-/// a step of dt (s); `c` holds their columns side by side, `increments` as many numbers.
-/// Temperature, pressure and the molten share, which has no strength, are those of the start of the
-/// step. Not collective.
+/// Plastic increments of the particles at `places`, all of one material, for a step of dt (s);
+/// false where it has no flow law. `c` holds their columns side by side, `increments` as many
+/// numbers. Temperature, pressure and the molten share, which has no strength, are those of the
+/// start of the step. Not collective.
 template <int Dim>
-void plastic_increments(const std::vector<Material>& materials, Thermal thermal,
+bool plastic_increments(const std::vector<Material>& materials, Thermal thermal,
                         const Particles<Dim>& particles, std::span<const std::uint32_t> places,
                         const Columns<Dim>& c, double dt, double* increments);
 

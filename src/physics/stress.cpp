@@ -206,8 +206,8 @@ void update_all(const std::vector<Material>& materials, const StressSettings<Dim
         c.particle = fetch<Dim>(all, block, adjacent, copy);
         set_step_columns<Dim>(step, first, c);
         const auto& m = materials[static_cast<std::size_t>(material)];
-        if (m.flow) {
-          plastic_increments<Dim>(materials, settings.thermal, particles, block, c, dt, increments);
+        if (plastic_increments<Dim>(materials, settings.thermal, particles, block, c, dt,
+                                    increments)) {
           c.plastic_increment = increments;
           update_in_mode<Dim, Yielding::known, Spall>(m, settings, dt, c, count, report);
         } else {

@@ -12,8 +12,9 @@ Backing make_backing(const MaterialParameters& p) {
   const double longitudinal = std::sqrt(p.c0 * p.c0 + 4.0 / 3.0 * shear / p.density);
   backing.shear_impedance = p.density * (longitudinal - p.c0);
   double yield = p.yield;
-  if (p.strength == StrengthModel::johnson_cook) yield = p.johnson_cook.yield;
-  if (p.strength == StrengthModel::steinberg_guinan) yield = p.steinberg_guinan.yield;
+  for_each_flow_law(p, [&](StrengthModel model, const auto& law) {
+    if (p.strength == model) yield = law.yield;
+  });
   backing.strength = 2.0 / 3.0 * yield;
   return backing;
 }

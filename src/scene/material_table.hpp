@@ -10,61 +10,28 @@
 
 namespace poreshock::scene_text {
 
-inline constexpr Range exponent_range{.low = 0.0, .high = 1.0, .above_low = true};
-
-template <typename Visitor>
-void visit_johnson_cook(Visitor& visitor, JohnsonCookParameters& p, Need need) {
-  visitor.number("yield", p.yield, {positive, "Pa", "A", need});
-  visitor.number("hardening", p.hardening, {not_negative, "Pa", "B", need});
-  visitor.number("exponent", p.exponent, {exponent_range, "", "n of the plastic strain", need});
-  visitor.number("rate", p.rate, {not_negative, "", "C, rise per e-fold of the strain rate", need});
-  visitor.number("reference_rate", p.reference_rate,
-                 {positive, "1/s", "strain rate from which on C counts"});
-  visitor.number("softening", p.softening, {positive, "", "m of the temperature", need});
-  visitor.number("melting", p.melting, {positive, "K", "temperature without strength", need});
-  visitor.number("reference_temperature", p.reference_temperature,
-                 {positive, "K", "temperature from which on it softens"});
-}
-
-template <typename Visitor>
-void visit_steinberg_guinan(Visitor& visitor, SteinbergGuinanParameters& p, Need need) {
-  visitor.number("yield", p.yield, {positive, "Pa", "Y0", need});
-  visitor.number("hardening", p.hardening, {not_negative, "", "beta", need});
-  visitor.number("exponent", p.exponent, {exponent_range, "", "n of the plastic strain", need});
-  visitor.number("initial_strain", p.initial_strain, {not_negative, "", "plastic strain before"});
-  visitor.number("limit", p.limit, {positive, "Pa", "Ymax, at no pressure", need});
-  visitor.number("pressure_rise", p.pressure_rise,
-                 {not_negative, "1/Pa", "A, relative rise of the shear modulus", need});
-  visitor.number("temperature_fall", p.temperature_fall,
-                 {not_negative, "1/K", "B, relative fall of the shear modulus", need});
-  visitor.number("reference_temperature", p.reference_temperature,
-                 {positive, "K", "temperature of Y0"});
-}
-
 /// The yield stress by one of the strength models.
 template <typename Visitor>
 void visit_strength(Visitor& visitor, MaterialParameters& material, bool known) {
-  const Names<StrengthModel> models{{"linear", StrengthModel::linear},
-                                    {"johnson_cook", StrengthModel::johnson_cook},
-                                    {"steinberg_guinan", StrengthModel::steinberg_guinan}};
+  Names<StrengthModel> models{{"linear", StrengthModel::linear}};
+  for_each_flow_law(material, [&](StrengthModel model, const auto& law) {
+    models.emplace_back(law.name, model);
+  });
   const Names<PlasticHeat> heats{{"work", PlasticHeat::work},
                                  {"dissipation", PlasticHeat::dissipation}};
   choice(visitor, "strength", material.strength, models, {"how the yield stress changes"});
   const bool has = known && has_strength(material, material.strength);
   const Need need = has ? Need::optional : Need::required;
-  if (material.strength == StrengthModel::johnson_cook) {
-    visitor.table("johnson_cook",
-                  {"(A + B ep^n) (1 + C ln(rate/reference_rate)) (1 - T*^m), T* = 1 at melting."},
-                  [&](auto& inner) { visit_johnson_cook(inner, material.johnson_cook, need); });
-    return;
-  }
-  if (material.strength == StrengthModel::steinberg_guinan) {
-    visitor.table(
-        "steinberg_guinan",
-        {"min(Y0 (1 + beta ep)^n, Ymax) (1 + A P/(rho/rho0)^(1/3) - B (T - reference))."},
-        [&](auto& inner) { visit_steinberg_guinan(inner, material.steinberg_guinan, need); });
-    return;
-  }
+  for_each_flow_law(material, [&](StrengthModel model, auto& law) {
+    if (material.strength != model) return;
+    visitor.table(law.name, {law.about}, [&](auto& inner) {
+      for (const auto& key : law.keys()) {
+        inner.number(key.name, law.*key.value,
+                     {key.range, key.unit, key.about, key.required ? need : Need::optional});
+      }
+    });
+  });
+  if (material.strength != StrengthModel::linear) return;
   visitor.number("yield", material.yield, {not_negative, "Pa", "initial yield stress", need});
   visitor.number("hardening", material.hardening,
                  {not_negative, "Pa", "rise of the yield stress per plastic strain"});

@@ -8,23 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "poreshock/core/range.hpp"
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock::scene_text {
 
-inline constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-/// Allowed numbers, always finite.
-struct Range {
-  double low = -unlimited;
-  double high = unlimited;
-  bool above_low = false;   ///< low itself is not allowed
-  bool below_high = false;  ///< high itself is not allowed
-};
-
 inline constexpr Range any_number{};
-inline constexpr Range positive{.low = 0.0, .above_low = true};
-inline constexpr Range not_negative{.low = 0.0};
 inline constexpr Range share{.low = 0.0, .high = 1.0};
 
 enum class Need { optional, required };

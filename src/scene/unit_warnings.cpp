@@ -128,24 +128,21 @@ void warn_material(const MaterialParameters& m, const std::string& path,
   const double c0 = meant(sound_key, m);
   const double modulus = meant(density_key, m) * c0 * c0;
   warn_young(m, modulus, path, warnings);
-  const auto stress = [&](const char* key, double value) {
+  const auto stress = [&](const std::string& key, double value) {
     warn_stress(path + key, value, modulus, warnings);
   };
   stress("spall", m.spall);
-  switch (m.strength) {
-    case StrengthModel::linear:
-      stress("yield", m.yield);
-      stress("hardening", m.hardening);
-      break;
-    case StrengthModel::johnson_cook:
-      stress("johnson_cook.yield", m.johnson_cook.yield);
-      stress("johnson_cook.hardening", m.johnson_cook.hardening);
-      break;
-    case StrengthModel::steinberg_guinan:
-      stress("steinberg_guinan.yield", m.steinberg_guinan.yield);
-      stress("steinberg_guinan.limit", m.steinberg_guinan.limit);
-      break;
+  if (m.strength == StrengthModel::linear) {
+    stress("yield", m.yield);
+    stress("hardening", m.hardening);
   }
+  for_each_flow_law(m, [&](StrengthModel model, const auto& law) {
+    if (model != m.strength) return;
+    for (const auto& key : law.keys()) {
+      if (std::string_view(key.unit) != "Pa") continue;
+      stress(std::string(law.name) + "." + key.name, law.*key.value);
+    }
+  });
 }
 
 /// Fastest sound of the scene's materials as they were most likely meant, m/s.

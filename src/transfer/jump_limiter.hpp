@@ -31,8 +31,8 @@ inline JumpLimiters jump_limiters(double before, double own, double after) {
   const double mean = 0.5 * (r + s);
   const double most = 3.0 * less;
   const double steep = mean < most ? mean : most;
-  const double positive = steep > 0.0 ? steep : 0.0;
-  const double linear = positive < 1.0 ? positive : 1.0;
+  const double floored = steep > 0.0 ? steep : 0.0;
+  const double linear = floored < 1.0 ? floored : 1.0;
   const double least = less < 1.0 ? less : 1.0;
   const double square = least * least;
   return {still ? 1.0 : linear, still ? 1.0 : square * square};

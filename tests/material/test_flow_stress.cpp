@@ -17,7 +17,7 @@ using namespace poreshock;
 FlowStress law_of(const char* name, StrengthModel model) {
   MaterialParameters p = library_material(name)->parameters;
   p.strength = model;
-  return *make_material(p).flow;
+  return std::get<FlowStress>(make_material(p).flow);
 }
 
 TEST(Elementary, LogarithmAndExponential) {

@@ -76,7 +76,7 @@ TEST(Melting, NothingMeltsUnlessAsked) {
   EXPECT_GT(p.melt.latent_heat, 0.0);
   const Material solid = make_material(p);
   EXPECT_FALSE(solid.melt);
-  EXPECT_FALSE(solid.flow);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(solid.flow));
   const ThermalState hot{.density = p.density, .internal_energy = 2e6};
   EXPECT_EQ(material_phase(solid, Thermal::conserving, hot).molten, 0.0);
   p.melting = MeltingLaw::lindemann;

@@ -5,12 +5,100 @@
 // to the yield surface is implicit in plastic strain and strain rate; temperature and pressure are
 // those of the start of the step.
 
+#include <array>
 #include <cmath>
 
 #include "poreshock/core/elementary.hpp"
+#include "poreshock/core/range.hpp"
 #include "poreshock/material/j2_plasticity.hpp"
+#include "poreshock/particles/particles.hpp"
 
 namespace poreshock {
+
+/// One key of the parameters of a law, as a scene gives it.
+template <class Parameters>
+struct LawKey {
+  const char* name;
+  double Parameters::*value;
+  Range range;
+  const char* unit;
+  const char* about;
+  bool required;
+};
+
+template <class Parameters>
+constexpr LawKey<Parameters> law_key(const char* name, double Parameters::*value, Range range,
+                                     const char* unit, const char* about, bool required = true) {
+  return {name, value, range, unit, about, required};
+}
+
+inline constexpr Range exponent_range{.low = 0.0, .high = 1.0, .above_low = true};
+
+/// Y = (A + B ep^n)(1 + C ln(rate/reference_rate))(1 - T*^m) with T* = 0 at the reference
+/// temperature and 1 at melting.
+struct JohnsonCookParameters {
+  double yield = 0.0;                    ///< Pa, A
+  double hardening = 0.0;                ///< Pa, B
+  double exponent = 1.0;                 ///< n
+  double rate = 0.0;                     ///< C
+  double reference_rate = 1.0;           ///< 1/s
+  double softening = 1.0;                ///< m
+  double melting = 0.0;                  ///< K
+  double reference_temperature = 300.0;  ///< K
+
+  bool operator==(const JohnsonCookParameters&) const = default;
+  static constexpr const char* name = "johnson_cook";
+  static constexpr const char* about =
+      "(A + B ep^n) (1 + C ln(rate/reference_rate)) (1 - T*^m), T* = 1 at melting.";
+  static constexpr auto keys() {
+    using P = JohnsonCookParameters;
+    return std::array{
+        law_key("yield", &P::yield, positive, "Pa", "A"),
+        law_key("hardening", &P::hardening, not_negative, "Pa", "B"),
+        law_key("exponent", &P::exponent, exponent_range, "", "n of the plastic strain"),
+        law_key("rate", &P::rate, not_negative, "", "C, rise per e-fold of the strain rate"),
+        law_key("reference_rate", &P::reference_rate, positive, "1/s",
+                "strain rate from which on C counts", false),
+        law_key("softening", &P::softening, positive, "", "m of the temperature"),
+        law_key("melting", &P::melting, positive, "K", "temperature without strength"),
+        law_key("reference_temperature", &P::reference_temperature, positive, "K",
+                "temperature from which on it softens", false)};
+  }
+};
+
+/// Y = min(Y0 (1 + beta (ep + ei))^n, Ymax) (1 + A P/(rho/rho0)^(1/3) - B (T - T_ref)); the last
+/// bracket is that of the shear modulus, of which only the yield stress takes note here.
+struct SteinbergGuinanParameters {
+  double yield = 0.0;                    ///< Pa, Y0
+  double hardening = 0.0;                ///< beta
+  double exponent = 1.0;                 ///< n
+  double initial_strain = 0.0;           ///< ei
+  double limit = 0.0;                    ///< Pa, Ymax
+  double pressure_rise = 0.0;            ///< 1/Pa, A
+  double temperature_fall = 0.0;         ///< 1/K, B
+  double reference_temperature = 300.0;  ///< K
+
+  bool operator==(const SteinbergGuinanParameters&) const = default;
+  static constexpr const char* name = "steinberg_guinan";
+  static constexpr const char* about =
+      "min(Y0 (1 + beta ep)^n, Ymax) (1 + A P/(rho/rho0)^(1/3) - B (T - reference)).";
+  static constexpr auto keys() {
+    using P = SteinbergGuinanParameters;
+    return std::array{
+        law_key("yield", &P::yield, positive, "Pa", "Y0"),
+        law_key("hardening", &P::hardening, not_negative, "", "beta"),
+        law_key("exponent", &P::exponent, exponent_range, "", "n of the plastic strain"),
+        law_key("initial_strain", &P::initial_strain, not_negative, "", "plastic strain before",
+                false),
+        law_key("limit", &P::limit, positive, "Pa", "Ymax, at no pressure"),
+        law_key("pressure_rise", &P::pressure_rise, not_negative, "1/Pa",
+                "A, relative rise of the shear modulus"),
+        law_key("temperature_fall", &P::temperature_fall, not_negative, "1/K",
+                "B, relative fall of the shear modulus"),
+        law_key("reference_temperature", &P::reference_temperature, positive, "K",
+                "temperature of Y0", false)};
+  }
+};
 
 /// Y = min((start + hardening (initial_strain + ep)^exponent) (1 + rate ln(rate*)), limit) times
 /// thermal_factor, with rate* = max(1, plastic strain rate / reference_rate).
@@ -28,6 +116,34 @@ struct FlowStress {
   double pressure_rise = 0.0;            ///< 1/Pa, of the shear modulus
   double temperature_fall = 0.0;         ///< 1/K, of the shear modulus
 };
+
+inline FlowStress make_law(const JohnsonCookParameters& p) {
+  FlowStress law;
+  law.start = p.yield;
+  law.hardening = p.hardening;
+  law.exponent = p.exponent;
+  law.rate = p.rate;
+  law.reference_rate = p.reference_rate;
+  law.softening = p.softening;
+  law.melting = p.melting;
+  law.reference_temperature = p.reference_temperature;
+  return law;
+}
+
+inline FlowStress make_law(const SteinbergGuinanParameters& p) {
+  FlowStress law;
+  // Y0 (1 + beta e)^n = Y0 beta^n (1/beta + e)^n.
+  const bool hardens = p.hardening > 0.0;
+  law.start = hardens ? 0.0 : p.yield;
+  law.hardening = hardens ? p.yield * positive_power(p.hardening, p.exponent) : 0.0;
+  law.exponent = p.exponent;
+  law.initial_strain = hardens ? 1.0 / p.hardening + p.initial_strain : 0.0;
+  law.limit = p.limit;
+  law.pressure_rise = p.pressure_rise;
+  law.temperature_fall = p.temperature_fall;
+  law.reference_temperature = p.reference_temperature;
+  return law;
+}
 
 /// Share of the flow stress that pressure (Pa), compression (density over the initial one) and
 /// temperature (K) leave: (1 - T*^softening)(1 + A P / compression^(1/3) - B (T - T_ref)), T* from
@@ -124,6 +240,36 @@ inline double plastic_increment(const FlowStress& law, const FlowStep& step) {
   const double limited = (step.trial - step.factor * law.limit) / step.triple_shear;
   const double larger = limited > free ? limited : free;
   return step.triple_shear > 0.0 ? larger : 0.0;
+}
+
+/// Particles of one material at the start of a step, their columns side by side.
+template <int Dim>
+struct FlowBlock {
+  ParticlePointers<Dim> particle;
+  std::size_t count;
+  const double* equivalent;   ///< Pa, of the trial stress
+  const double* temperature;  ///< K
+  const double* molten;       ///< share of the mass, without strength
+  double shear;               ///< Pa
+  double density;             ///< kg/m^3, initial
+  double dt;                  ///< s
+};
+
+/// Plastic strain of the step for each particle of a block.
+// Flattened: the loop vectorises only when all it calls is inlined.
+template <int Dim>
+[[gnu::flatten]] void find_increments(const FlowStress& constants, const FlowBlock<Dim>& block,
+                                      double* increments) {
+  const FlowStress law = constants;
+  const FlowBlock<Dim> b = block;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < b.count; ++k) {
+    const double factor =
+        (1.0 - b.molten[k]) * thermal_factor(law, b.particle.pressure[k],
+                                             b.particle.density[k] / b.density, b.temperature[k]);
+    increments[k] = plastic_increment(
+        law, {b.equivalent[k], 3.0 * b.shear, factor, b.particle.plastic_strain[k], b.dt});
+  }
 }
 
 /// Returns the trial deviator by a known plastic increment; `start` as in radial_return. All

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "poreshock/material/flow_stress.hpp"
 #include "poreshock/material/j2_plasticity.hpp"
@@ -16,35 +17,12 @@ namespace poreshock {
 
 enum class Thermal { paper, conserving };
 enum class PlasticHeat { work, dissipation };
+
+/// How the yield stress changes; a flow law has an entry in for_each_flow_law.
 enum class StrengthModel { linear, johnson_cook, steinberg_guinan };
 
-/// Y = (A + B ep^n)(1 + C ln(rate/reference_rate))(1 - T*^m) with T* = 0 at the reference
-/// temperature and 1 at melting.
-struct JohnsonCookParameters {
-  double yield = 0.0;                    ///< Pa, A
-  double hardening = 0.0;                ///< Pa, B
-  double exponent = 1.0;                 ///< n
-  double rate = 0.0;                     ///< C
-  double reference_rate = 1.0;           ///< 1/s
-  double softening = 1.0;                ///< m
-  double melting = 0.0;                  ///< K
-  double reference_temperature = 300.0;  ///< K
-  bool operator==(const JohnsonCookParameters&) const = default;
-};
-
-/// Y = min(Y0 (1 + beta (ep + ei))^n, Ymax) (1 + A P/(rho/rho0)^(1/3) - B (T - T_ref)); the last
-/// bracket is that of the shear modulus, of which only the yield stress takes note here.
-struct SteinbergGuinanParameters {
-  double yield = 0.0;                    ///< Pa, Y0
-  double hardening = 0.0;                ///< beta
-  double exponent = 1.0;                 ///< n
-  double initial_strain = 0.0;           ///< ei
-  double limit = 0.0;                    ///< Pa, Ymax
-  double pressure_rise = 0.0;            ///< 1/Pa, A
-  double temperature_fall = 0.0;         ///< 1/K, B
-  double reference_temperature = 300.0;  ///< K
-  bool operator==(const SteinbergGuinanParameters&) const = default;
-};
+/// A flow stress in place of linear hardening, or none.
+using FlowLaw = std::variant<std::monostate, FlowStress>;
 
 /// Isotropic elastic-plastic solid with J2 plasticity and a Mie-Grueneisen equation of state.
 struct MaterialParameters {
@@ -73,11 +51,18 @@ struct MaterialParameters {
   bool operator==(const MaterialParameters&) const = default;
 };
 
+/// Calls visit(model, parameters) for each flow law; the parameters tell their keys and the law.
+template <class Parameters, class Visitor>
+void for_each_flow_law(Parameters& material, Visitor&& visit) {
+  visit(StrengthModel::johnson_cook, material.johnson_cook);
+  visit(StrengthModel::steinberg_guinan, material.steinberg_guinan);
+}
+
 /// J2 plasticity with a Mie-Grueneisen equation of state.
 struct Material {
   MieGruneisen eos;
   J2Plasticity strength;
-  std::optional<FlowStress> flow;  ///< in place of linear hardening
+  FlowLaw flow;
   TemperatureCurve temperature;
   std::optional<MeltCurve> melt;  ///< where it melts
   PlasticHeat plastic_heat = PlasticHeat::work;
