@@ -5,6 +5,7 @@
 #include "poreshock/physics/heat.hpp"
 #include "poreshock/physics/node_ledger.hpp"
 #include "poreshock/physics/stress.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/transfer/grid_to_particles.hpp"
 #include "support/aluminium.hpp"
 #include "support/random_numbers.hpp"
