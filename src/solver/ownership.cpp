@@ -23,10 +23,10 @@ int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shap
   return stencil_base(shape.stencil, particles.position[Dim - 1][p] * inverse_cell, shape.rows);
 }
 
-/// Brings one coordinate back into the domain where its sides say so; false when it has escaped.
+/// Brings one coordinate outside back into the domain where its sides say so; false when it has
+/// escaped.
 bool confine(const SideLaw& low, const SideLaw& high, double length, double& x,
              std::int64_t& crossings) {
-  if (x >= 0.0 && x < length) return true;
   if (low.wraps) {
     x += x < 0.0 ? length : -length;
     // Rounding can land on the far end, which is the near one.
@@ -49,10 +49,12 @@ template <int Dim>
 bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
              std::int64_t& crossings) {
   for (int a = 0; a < Dim; ++a) {
+    double& x = particles.position[a][p];
+    const double length = scene.domain.size[a];
+    if (x >= 0.0 && x < length) continue;
     const SideLaw& low = side_law(side_at(scene.boundary, a, false, Dim).kind);
     const SideLaw& high = side_law(side_at(scene.boundary, a, true, Dim).kind);
-    if (!confine(low, high, scene.domain.size[a], particles.position[a][p], crossings))
-      return false;
+    if (!confine(low, high, length, x, crossings)) return false;
   }
   return true;
 }
