@@ -12,9 +12,9 @@ _poreshock() {
     # Keys by their tables, the first of repeated ones: material.0.yield=
     local keys
     keys=$("$program" keys 2>/dev/null | awk -F'`' '
-      /^At the top/ { table = "" }
-      /^`\[/ { table = $2; repeated = table ~ /^\[\[/; gsub(/[][]/, "", table);
-               sub(/^(material|body|void|sample\.mixture)/, "&.0", table); table = table "." }
+      /^(#+ )?At the top/ { table = "" }
+      /^(#+ )?`\[/ { table = $2; repeated = table ~ /^\[\[/; gsub(/[][]/, "", table);
+               sub(/^(material|body|void|probe|sample\.mixture)/, "&.0", table); table = table "." }
       /^\| `/ { print table $2 "=" }')
     compopt -o nospace
     mapfile -t COMPREPLY < <(compgen -W "$keys" -- "$word")

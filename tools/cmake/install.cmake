@@ -10,7 +10,8 @@ install(DIRECTORY include/poreshock DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY input DESTINATION ${CMAKE_INSTALL_DATADIR}/poreshock)
 install(DIRECTORY tools/poreshock_report DESTINATION ${CMAKE_INSTALL_DATADIR}/poreshock/tools
         PATTERN __pycache__ EXCLUDE)
-install(PROGRAMS tools/report.py tools/plate_exact.py tools/hugoniot.py tools/paraview_view.py
+install(PROGRAMS tools/report.py tools/plate_exact.py tools/plate_release.py tools/hugoniot.py
+        tools/paraview_view.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/poreshock/tools)
 # The pages in their folders, so that their links lead on.
 foreach(page README.md input/README.md input/first_hour/README.md src/README.md src/physics/README.md
