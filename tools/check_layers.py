@@ -1,11 +1,16 @@
 #!/usr/bin/python3
-"""Checks the layers: includes point down only, libraries stay in their layer, trees are paired.
+"""Checks the layers: includes point down only, libraries stay in their layer, sources are paired; and the sizes.
 
 Usage: tools/check_layers.py [ROOT]. Prints file:line: message for each problem; exit 1 if any.
+What is larger than allowed stands in tools/check_layers.txt, which may only become shorter.
 """
 import re
 import sys
 from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+from cpp_functions import functions  # noqa: E402
 
 BASE = ("core", "files", "image", "particles", "material", "scene", "grid")  # each may include those before it
 MAY_INCLUDE = {layer: set(BASE[:i]) for i, layer in enumerate(BASE)}
@@ -28,6 +33,8 @@ LIBRARIES = (  # header of a library, the paths that may include it, their name 
 )
 TOP_LEVEL = {"CMakeLists.txt", "src", "include", "input", "tests", "jobscripts", "tools", "README.md"}
 NOT_OURS = {"build", "output"}  # made by tools/build and tools/run
+LIMITS = {"body": 40, "arguments": 7, "file": 300, "unpaired": 0}  # lines, of a function, lines, sources without a header
+STANDING = "tools/check_layers.txt"
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -68,6 +75,57 @@ def check_file(root, tree, file):
         yield f"{place}:1: its header is {elsewhere[0].relative_to(root)}; a pair lies in one layer"
 
 
+def sizes_of_functions(root):
+    """(kind, name), place, size and text of the body and the arguments of every function of the program."""
+    for tree in ("include/poreshock", "src"):
+        for file in sorted((root / tree).rglob("*.[ch]pp")):
+            path = file.relative_to(root).as_posix()
+            for line, name, arguments, body in functions(file.read_text()):
+                key, place = f"{path}:{name}", f"{path}:{line}"
+                yield ("body", key), place, body, f"'{name}' has {body} lines"
+                yield ("arguments", key), place, arguments, f"'{name}' takes {arguments} arguments"
+
+
+def sizes_of_files(root):
+    """The same of every file of code, and of sources that lack their header."""
+    for file in sorted(file for tree in ("include", "src", "tests", "tools") for file in (root / tree).rglob("*")):
+        path = file.relative_to(root).as_posix()
+        if file.suffix not in (".cpp", ".hpp", ".py") and (file.suffix or not path.startswith("tools/")) or file.is_dir():
+            continue
+        lines = file.read_text().count("\n")
+        yield ("file", path), f"{path}:{LIMITS['file'] + 1}", lines, f"has {lines} lines"
+        header = Path(path).with_suffix(".hpp")
+        pair = (header, "include/poreshock" / header.relative_to("src")) if header.is_relative_to("src") else ()
+        if file.suffix == ".cpp" and pair and path != "src/app/main.cpp":
+            lacks = not any((root / name).is_file() for name in pair)
+            yield ("unpaired", path), f"{path}:1", int(lacks), f"has no header; {pair[1]} or {pair[0]} declares what it defines"
+
+
+def read_standing(file):
+    """The size that is let stand, and its line, of each (kind, name)."""
+    entries = {}
+    for number, line in enumerate(file.read_text().splitlines() if file.is_file() else (), 1):
+        entry = re.fullmatch(r"(\w+) (\S+) (\d+)", line)
+        if entry or not line.startswith("#"):
+            entries[(entry[1], entry[2]) if entry else (line, "")] = (int(entry[3]) if entry else 0, number)
+    return entries
+
+
+def check_sizes(root):
+    """Problems of sizes beyond their limits, and of entries of the list that nothing needs any more."""
+    standing, needed = read_standing(root / STANDING), set()
+    for sizes in (sizes_of_functions(root), sizes_of_files(root)):
+        for key, place, size, text in sizes:
+            if size <= LIMITS[key[0]]:
+                continue
+            needed.add(key)
+            allowed = max(LIMITS[key[0]], standing.get(key, (0, 0))[0])
+            if size > allowed:
+                yield f"{place}: {text}" + (f"; at most {allowed} are allowed" if allowed else "")
+    for kind, name in sorted(standing.keys() - needed):
+        yield f"{STANDING}:{standing[kind, name][1]}: '{kind} {name}' is beyond no limit; strike the line"
+
+
 def problems(root):
     """All problems below `root`, in order of path."""
     for entry in sorted(root.iterdir()):
@@ -76,6 +134,7 @@ def problems(root):
     for tree in ("include/poreshock", "src"):
         for file in sorted((root / tree).rglob("*.[ch]pp")):
             yield from check_file(root, tree, file)
+    yield from check_sizes(root)
 
 
 if __name__ == "__main__":
