@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <ranges>
 #include <set>
 #include <string>
 #include <tuple>
@@ -202,8 +201,9 @@ std::vector<std::int8_t> colour_grains(std::int32_t grains, const std::vector<Gr
     near[static_cast<std::size_t>(b)].push_back(a);
   }
   std::vector<std::int8_t> colour(near.size(), -1);
-  const std::vector<std::int32_t> order = smallest_first(near);
-  for (const std::int32_t grain : std::views::reverse(order)) {
+  std::vector<std::int32_t> order = smallest_first(near);
+  std::reverse(order.begin(), order.end());
+  for (const std::int32_t grain : order) {
     std::array<bool, most_colours> taken{};
     for (const std::int32_t other : near[static_cast<std::size_t>(grain)]) {
       const std::int8_t c = colour[static_cast<std::size_t>(other)];

@@ -13,8 +13,8 @@ void mark_surfaces(Simulation<Dim>& sim) {
   grid.exchange();
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     for (int i = 0; i < grid.shape().row_size; ++i) {
-      double& filled = grid.row(row)[i][SurfaceLane<Dim>::volume];
-      filled /= node_capacity(grid.shape(), sim.scene.transfer, row, i);
+      grid.row(row)[i][SurfaceLane<Dim>::volume] /=
+          node_capacity(grid.shape(), sim.scene.transfer, row, i);
     }
   }
   grid.fill_periodic_images();

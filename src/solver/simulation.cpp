@@ -82,10 +82,10 @@ void advance(Simulation<Dim>& sim, double dt) {
   // end sees the heat in the energy that pressure follows from.
   if (sim.heat) in(PhaseName::conduction, [&] { conduct(dt, sim); });
   const std::vector<FieldView> fields = velocity_fields(sim.cells, *sim.grid, sim.grain_fields);
-  for (const auto& [cells, grid] : fields) {
+  for (const FieldView& field : fields) {
     in(PhaseName::particles_to_grid,
-       [&] { particles_to_grid(particles, *cells, transfer, *grid); });
-    in(PhaseName::exchange, [&] { grid->exchange(); });
+       [&] { particles_to_grid(particles, *field.cells, transfer, *field.grid); });
+    in(PhaseName::exchange, [&] { field.grid->exchange(); });
   }
   if (sim.ends) sum_ends(sim);
   const auto momentum = [&](SlabGrid& grid) { integrate_momentum<Dim>(sim.body_force, dt, grid); };
@@ -96,12 +96,12 @@ void advance(Simulation<Dim>& sim, double dt) {
   };
   move_nodes<Dim>(dt, fields, momentum, boundaries, sim);
   StepReport report;
-  for (const auto& [cells, grid] : fields) {
-    in(PhaseName::grid_update, [&] { prepare_gather<Dim>(motion.lost, *grid); });
-    for_each_chunk(*cells, *grid, [&](RowRange rows, std::span<const std::uint32_t> places) {
+  for (const FieldView& field : fields) {
+    in(PhaseName::grid_update, [&] { prepare_gather<Dim>(motion.lost, *field.grid); });
+    for_each_chunk(*field.cells, *field.grid, [&](RowRange rows, const auto& places) {
       in(PhaseName::grid_to_particles, [&] {
-        grid_to_particles(*grid, *cells, rows, transfer, motion, particles, sim.step_data,
-                          report.transfer);
+        grid_to_particles(*field.grid, *field.cells, rows, transfer, motion, particles,
+                          sim.step_data, report.transfer);
       });
       in(PhaseName::stress, [&] {
         update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, particles,

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
-#include <ranges>
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/morphology/minkowski.hpp"
@@ -149,12 +149,13 @@ TEST(CountPixels, Identities) {
 
 /// An image of zeros and ones from rows of text, the highest row first; '.' black, '#' white, 'o'
 /// void.
-Image drawn(const std::vector<std::string>& rows, bool periodic) {
+Image drawn(std::vector<std::string> rows, bool periodic) {
   Image image;
   image.width = static_cast<int>(rows[0].size());
   image.height = static_cast<int>(rows.size());
   image.periodic = periodic;
-  for (const std::string& row : std::views::reverse(rows)) {
+  std::reverse(rows.begin(), rows.end());
+  for (const std::string& row : rows) {
     for (const char pixel : row) {
       image.values.push_back(pixel == '#' ? 1.0 : 0.0);
       image.solid.push_back(pixel == 'o' ? 0 : 1);
