@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by the Slurm scripts that submit themselves again.
 
 # newest_checkpoint FOLDER: prints the path of the checkpoint with the highest step, if there is one.

@@ -70,7 +70,7 @@ def check_file(root, tree, file):
         own = own or found and (found[2].startswith(f"poreshock/{parts[0]}/") or found[1] == '"' and "/" not in found[2])
     if not own:
         yield f"{place}:1: includes no header of its layer, so nothing declares what it defines"
-    elsewhere = [header for header in (root / "include/poreshock").glob(f"*/{file.stem}.hpp")]
+    elsewhere = list((root / "include/poreshock").glob(f"*/{file.stem}.hpp"))
     if file.suffix == ".cpp" and elsewhere and parts[0] not in [header.parent.name for header in elsewhere]:
         yield f"{place}:1: its header is {elsewhere[0].relative_to(root)}; a pair lies in one layer"
 

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by tools/run and the job scripts.
 
 # run_with_checkpoint COMMAND [ARGUMENT...]: runs a command that becomes mpirun and returns its exit

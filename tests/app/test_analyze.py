@@ -74,17 +74,15 @@ class Snapshots(program.ProgramTest):
             self.assertLessEqual(hotter, material - numpy.ceil(p * material))
         numpy.testing.assert_allclose(shares["temperature/L_physical"], shares["temperature/L"] / pixel, rtol=1e-15)
         numpy.testing.assert_allclose(shares["temperature/chi_physical"], shares["temperature/chi"] / pixel**2, rtol=1e-15)
-        chi = {}
+        found = {}
         for voids in ("black", "white", "fill", "exclude"):
             self.succeed("analyze", snapshot, "--thresholds", "310:600:10", "--voids", voids, "--isoline", "--output", voids,
                          ranks=3)
-            found = program.datasets(self.folder / f"{voids}/morphology.h5")
-            chi[voids] = found["temperature/chi"][0]
+            found[voids] = program.datasets(self.folder / f"{voids}/morphology.h5")
             # Area, boundary and counts are of the material whatever a void is for chi.
             for name in ("A", "L", "L_crofton", "L_isoline", "F", "E", "V", "n_W"):
-                if voids != "black":
-                    numpy.testing.assert_array_equal(found[f"temperature/{name}"], black[f"temperature/{name}"])
-            black = found
+                numpy.testing.assert_array_equal(found[voids][f"temperature/{name}"], found["black"][f"temperature/{name}"])
+        black, chi = found["black"], {voids: arrays["temperature/chi"][0] for voids, arrays in found.items()}
         # Voids inside hot material, from 320 K on: each is a hole when black, and none when white or filled.
         hottest = slice(1, 6)
         self.assertTrue((chi["white"] >= chi["black"]).all())

@@ -89,7 +89,7 @@ class Installed(unittest.TestCase):
         run("dpkg-deb", "--extract", package, root)
         self.assertRegex(run(root / "usr/bin/poreshock", "--version"), r"^poreshock \d+\.\d+\.\d+ ")
         for path in ("share/poreshock/input/porous_aluminium.toml", "share/bash-completion/completions/poreshock",
-                     "share/doc/poreshock/README.md", "share/doc/poreshock/input/README.md", 
+                     "share/doc/poreshock/README.md", "share/doc/poreshock/input/README.md",
                      "include/poreshock/run/run.hpp"):
             self.assertTrue((root / "usr" / path).is_file(), path)
 

@@ -56,7 +56,7 @@ class Rows(unittest.TestCase):
             accuracy.parse_verify("VERIFY rod order 1.2 fail\n")
 
     def test_bars_of_the_plates(self):
-        figures = {name: 0.0 for name in accuracy.BARS}
+        figures = dict.fromkeys(accuracy.BARS, 0.0)
         warm = figures | {"temperature rise": -1.2}
         rows = {row.figure: row for row in accuracy.rows_of_plates("p", {500.0: warm, 700.0: warm, 3000.0: figures})}
         self.assertEqual([name for name, row in rows.items() if not row.ok], ["temperature rise"])

@@ -1,5 +1,6 @@
 """The shell scripts around a run, with a small program in the place of mpirun and of poreshock."""
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -9,8 +10,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCED = ("resubmit.sh",)
-SCRIPTS = [*(path for path in (ROOT / "jobscripts").glob("*.sh") if path.name not in SOURCED), ROOT / ".ci/run",
-           *(ROOT / "tools" / name for name in ("build", "cores", "install", "mpirun", "run", "test"))]
+SCRIPTS = [*(path for path in (ROOT / "jobscripts").glob("*.sh") if path.name not in SOURCED), ROOT / ".ci/run", ROOT / ".ci/nightly",
+           *(ROOT / "tools" / name for name in ("build", "cores", "install", "lint", "mpirun", "run", "test"))]
+SCRIPT_NAMES = [path.relative_to(ROOT).as_posix() for path in SCRIPTS]
 
 # Counts USR1 like the ranks of a run: each is noted, and the first ends it a moment later.
 PROGRAM = """import os, signal, sys, time
@@ -200,6 +202,22 @@ class Commands(unittest.TestCase):
         self.script(self.bin / "dpkg-query", "echo installed\n")
         done = self.call(ROOT / "tools/install")
         self.assertEqual((done.stdout, done.stderr, done.returncode), ("", "", 0))
+
+    def test_lint_tells_what_is_missing_and_what_was_found(self):
+        for name in ("bash", "dirname", "git", "grep", "printf"):
+            (self.bin / name).symlink_to(shutil.which(name))
+        self.script(self.bin / "shellcheck", 'printf "%s\\n" "$@"\n')
+        self.script(self.bin / "codespell", '[[ " $* " == *" tools/README.md "* && "$*" != *.png* ]]\n')
+        done = self.call(ROOT / "tools/lint", "--quick", PATH=str(self.bin))
+        self.assertEqual((done.stderr, done.returncode),
+                         ("tools/lint: ruff is not installed, so it was not run: pipx install ruff\n", 0))
+        self.assertLessEqual({*SCRIPT_NAMES, "jobscripts/resubmit.sh"}, set(done.stdout.split()))
+        self.assertEqual([name for name in done.stdout.split() if name.endswith(".py")], [])
+        self.script(self.bin / "ruff", '[[ " $* " != *" tools/report.py "*" tools/sweep "* ]]\n')
+        self.script(self.bin / "shellcheck", "exit 0\n")
+        self.assertEqual(self.call(ROOT / "tools/lint", "--quick", PATH=str(self.bin)).returncode, 0)
+        self.script(self.bin / "codespell", "exit 65\n")
+        self.assertEqual(self.call(ROOT / "tools/lint", "--quick", PATH=str(self.bin)).returncode, 1)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from PIL import Image
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
 from fake_output import THRESHOLDS, write_output  # noqa: E402
-from poreshock_report import comparison, folder, frames, morphology_figures, page, style, summary  # noqa: E402
+from poreshock_report import comparison, folder, frames, morphology_figures, style, summary  # noqa: E402
 
 
 def text_of(page_text):

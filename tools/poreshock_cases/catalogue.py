@@ -1,6 +1,6 @@
 """The hard cases, and what is known to miss its bar."""
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 from poreshock_cases import bits, contacts, free, impact, voids
 

@@ -112,7 +112,6 @@ def variants(study):
                "voids of 30 um": {"sample__void_radius": 30e-6},
                "voids of 60 um": {"sample__void_radius": 60e-6},
                "APIC": {"transfer__velocity": "apic"},
-               "APIC": {"transfer__velocity": "apic"},
                "unlimited viscosity": {"viscosity__limited": False},
                "lineage": {"transfer__preset": "lineage"}}
     if study.finer:
