@@ -5,6 +5,7 @@ Usage: tools/check_layers.py [ROOT]. Prints file:line: message for each problem;
 What is larger than allowed stands in tools/check_layers.txt, which may only become shorter.
 """
 import re
+import signal
 import sys
 from pathlib import Path
 
@@ -138,6 +139,7 @@ def problems(root):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that stops early, as head does, is no fault
     found = list(problems(Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()))
     print("\n".join(found), end="\n" if found else "")
     sys.exit(1 if found else 0)

@@ -4,6 +4,7 @@
 Usage: tools/hugoniot.py FOLDER [FOLDER...]
 Reads scene.toml, profiles.h5 and history.csv of each output folder; the wall is at the low side.
 """
+import signal
 import sys
 from pathlib import Path
 
@@ -32,4 +33,5 @@ def main(names):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that stops early, as head does, is no fault
     sys.exit(main(sys.argv[1:]))

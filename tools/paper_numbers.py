@@ -7,6 +7,7 @@ Area fractions come from morphology.h5 at the thresholds 350 ... 550 K; extremes
 the snapshots. Loading ends when the area above 350 K is largest.
 """
 import pathlib
+import signal
 import sys
 
 import h5py
@@ -83,4 +84,5 @@ def main():
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that stops early, as head does, is no fault
     sys.exit(main())

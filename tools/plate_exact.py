@@ -8,6 +8,7 @@ compression here. With thermal = "paper" pressure and temperature follow eqs 4-7
 volume and plastic work alone. Run by itself it prints the table for aluminium.
 """
 import math
+import signal
 from dataclasses import dataclass
 
 import numpy
@@ -189,4 +190,5 @@ def main():
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that stops early, as head does, is no fault
     main()

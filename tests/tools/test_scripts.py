@@ -219,6 +219,19 @@ class Commands(unittest.TestCase):
         self.script(self.bin / "codespell", "exit 65\n")
         self.assertEqual(self.call(ROOT / "tools/lint", "--quick", PATH=str(self.bin)).returncode, 1)
 
+    def test_a_reader_that_stops_early_is_no_fault(self):
+        (self.root / "scene.toml").write_text("")
+        (self.root / "table.toml").write_text('scene = "scene.toml"\n[vary]\n"sample.seed" = [1, 2]\n')
+        (self.root / "Makefile").write_text("")  # what check_layers.py tells of
+        for command in (["reproduce_paper", "--list"], ["sweep", "table.toml", "--list"], ["plate_exact.py"],
+                        ["check_layers.py", self.root]):
+            read, write = os.pipe()
+            os.close(read)
+            done = subprocess.run([ROOT / "tools" / command[0], *command[1:]], cwd=self.root, stdout=write,
+                                  stderr=subprocess.PIPE, text=True, check=False)
+            os.close(write)
+            self.assertEqual((done.stderr, done.returncode), ("", -signal.SIGPIPE), command)
+
 
 if __name__ == "__main__":
     unittest.main()

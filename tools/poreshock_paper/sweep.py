@@ -6,6 +6,7 @@ import itertools
 import json
 import os
 import re
+import signal
 import subprocess
 import threading
 import time
@@ -112,6 +113,13 @@ def is_done(folder, case):
         return False
     same = all(stored.get(key) == value for key, value in fingerprint(case).items())
     return same and (folder / case.name / "timings.json").exists()
+
+
+def tell_state(folder, cases, text):
+    """Prints which cases are done, and text(case)."""
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that stops early, as head does, is no fault
+    for case in cases:
+        print("done   " if is_done(folder, case) else "missing", text(case))
 
 
 @contextmanager
