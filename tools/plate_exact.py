@@ -144,8 +144,11 @@ def jump_to_velocity(material, before, velocity, thermal="conserving"):
     least = 1.0 - 1.0 / material.gruneisen_slope
     if thermal == "conserving":
         least = max(least, material.gamma / (2.0 + material.gamma))
-    low, high = least * rest * (1.0 + 1e-9), before.volume * (1.0 - 1e-12)
-    if jump(material, before, low, thermal).velocity < velocity:
+    high = before.volume * (1.0 - 1e-12)
+    # The velocity rises with the compression, but close to the limit a second jump has a root that is none.
+    volumes = numpy.linspace(high, least * rest * (1.0 + 1e-9), 200)[1:]
+    low = next((volume for volume in volumes if jump(material, before, volume, thermal).velocity >= velocity), None)
+    if low is None:
         raise ValueError(f"an impact at {velocity} m/s is beyond the equation of state")
     for _ in range(200):
         middle = 0.5 * (low + high)

@@ -71,6 +71,16 @@ class Exact(unittest.TestCase):
                          f"{plate.final.temperature:.1f} {plate.final.front:.1f}",
                          "6484.9 35.15 6.63602 2985.62 354.5 5909.2")
 
+    def test_a_fast_impact_without_hardening(self):
+        # The second jump of such a solid has no velocity at the limit of compression.
+        copper = plate_exact.Material(density=8930.0, young=127.8e9, poisson=0.34, hardening=0.0, c0=3940.0,
+                                      gruneisen_slope=1.489, gamma=2.02, cv=383.0)
+        found = plate_exact.solve(copper, 3000.0)
+        self.assertIsNone(found.precursor)
+        self.assertAlmostEqual(found.final.velocity, 3000.0, places=6)
+        self.assertAlmostEqual(found.final.stress / (8930.0 * found.final.front * 3000.0), 1.0, places=12)
+        self.assertAlmostEqual(found.final.front / (3940.0 + 1.489 * 3000.0), 1.0, places=3)
+
     def test_paper_mode_without_strength_is_the_hugoniot(self):
         fluid = plate_exact.Material(yield_stress=0.0, hardening=0.0)
         for velocity, row in HYDRODYNAMIC.items():
