@@ -232,7 +232,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
   }
   const auto is_smooth = [](const auto& shape) { return shape.smoothness > 0; };
   if (!of_shape(scene.transfer.shape, is_smooth)) {
-    warnings.push_back(
+    warnings.emplace_back(
         "With transfer.shape = \"linear\" runs stop where voids collapse: hats let forces jump "
         "where particles cross cells. Set transfer.shape to \"gimp\" or \"cubic\".");
   }

@@ -202,8 +202,8 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
 
 bool is_mirrored(const Boundary& boundary, const GridShape& shape, int row, int lateral) {
   const auto on_axis = [&](int axis, int index) {
-    const SideLaw& low = side_law(side_at(boundary, axis, false, shape.dimension).kind);
-    const SideLaw& high = side_law(side_at(boundary, axis, true, shape.dimension).kind);
+    const SideLaw& low = side_law(side_kind(boundary, axis, false, shape.dimension));
+    const SideLaw& high = side_law(side_kind(boundary, axis, true, shape.dimension));
     return axis_place(index, shape.nodes[axis], low, high).place != Place::inside;
   };
   const int x = lateral % shape.nodes[0], y = lateral / shape.nodes[0];
@@ -219,7 +219,7 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
   std::array<std::array<SideLaw, 2>, Dim> law;
   for (int a = 0; a < Dim; ++a) {
     for (const bool high : {false, true}) {
-      law[a][high] = side_law(side_at(boundary, a, high, Dim).kind);
+      law[a][high] = side_law(side_kind(boundary, a, high, Dim));
       sides = sides || (a + 1 < Dim && law[a][high].mirrors);
     }
   }

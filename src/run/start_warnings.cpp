@@ -24,7 +24,7 @@ std::string short_number(double value) {
 
 template <int Dim>
 bool is_open(const Scene& scene, int axis, bool high) {
-  return side_law(side_at(scene.boundary, axis, high, Dim).kind).lets_out;
+  return side_law(side_kind(scene.boundary, axis, high, Dim)).lets_out;
 }
 
 std::string side_name(int axis, bool high, int dimension) {

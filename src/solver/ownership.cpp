@@ -52,8 +52,8 @@ bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
     double& x = particles.position[a][p];
     const double length = scene.domain.size[a];
     if (x >= 0.0 && x < length) continue;
-    const SideLaw& low = side_law(side_at(scene.boundary, a, false, Dim).kind);
-    const SideLaw& high = side_law(side_at(scene.boundary, a, true, Dim).kind);
+    const SideLaw& low = side_law(side_kind(scene.boundary, a, false, Dim));
+    const SideLaw& high = side_law(side_kind(scene.boundary, a, true, Dim));
     if (!confine(low, high, length, x, crossings)) return false;
   }
   return true;

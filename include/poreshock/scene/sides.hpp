@@ -56,8 +56,16 @@ struct Boundary {
 
 /// The side at the low or high end of an axis.
 inline Side side_at(const Boundary& boundary, int axis, bool high, int dimension) {
-  if (axis + 1 < dimension) return {boundary.lateral[static_cast<std::size_t>(axis)]};
-  return high ? boundary.high : boundary.low;
+  if (axis + 1 == dimension) return high ? boundary.high : boundary.low;
+  Side side;
+  side.kind = boundary.lateral[static_cast<std::size_t>(axis)];
+  return side;
+}
+
+/// Its kind.
+inline SideKind side_kind(const Boundary& boundary, int axis, bool high, int dimension) {
+  if (axis + 1 < dimension) return boundary.lateral[static_cast<std::size_t>(axis)];
+  return high ? boundary.high.kind : boundary.low.kind;
 }
 
 }  // namespace poreshock
