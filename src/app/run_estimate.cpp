@@ -224,7 +224,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
   std::vector<std::string> warnings;
   warn_beat(scene, estimate, warnings);
   if (scene.transfer.velocity == VelocityTransfer::polyflip) {
-    warnings.push_back(
+    warnings.emplace_back(
         "With transfer.velocity = \"polyflip\" a particle may run away where a jet meets the far "
         "wall "
         "of a void, and the run then stops. Set transfer.velocity = \"aflip\" for samples with "
