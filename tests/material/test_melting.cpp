@@ -52,7 +52,9 @@ TEST(Melting, HeatAtConstantVolumeWarmsThenMeltsThenWarms) {
     EXPECT_NEAR(half.temperature, melting_temperature(*m.melt, density, P), 1e-9);
     const double exact = 0.5 - cv * (half.temperature - melting) / latent;
     EXPECT_NEAR(half.molten, exact, 1e-9);
-    if (law == MeltingLaw::lindemann) EXPECT_NEAR(half.molten, 0.5, 1e-9);
+    if (law == MeltingLaw::lindemann) {
+      EXPECT_NEAR(half.molten, 0.5, 1e-9);
+    }
   }
 }
 

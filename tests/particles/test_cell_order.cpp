@@ -83,7 +83,7 @@ TEST(CellOrder, DoesNotDependOnStorage) {
 }
 
 TEST(CellOrder, OfNoParticlesIsEmpty) {
-  CellOrder result{{1, 2, 3}, {4, 5}};
+  CellOrder result{.start = {1, 2, 3}, .order = {4, 5}, .cell = {}};
   sort_by_cell({}, 3, {}, {}, result);
   EXPECT_EQ(result.start, (std::vector<std::uint32_t>{0, 0, 0, 0}));
   EXPECT_TRUE(result.order.empty());

@@ -132,31 +132,13 @@ void expect_plain_sums(const Simulation<Dim>& sim) {
   }
 }
 
-const std::string ball_text = std::string(R"(
-[domain]
-size = [60e-6, 60e-6, 160e-6]
-cell = 10e-6
-periodic = true
-[boundary]
-low = "wall"
-[sample]
-kind = "random_voids"
-height = 140e-6
-porosity = 0.08
-void_radius = 18e-6
-[loading]
-velocity = 1100
-[time]
-end = 1e-6
-)") + aluminium_text;
-
 TEST(Profiles, AreThePlainSumsOverParticles) {
   for (const auto& changes : {std::vector<std::string>{}, {"transfer.velocity=flip"}}) {
     Simulation<2> sim = start<2>(scene_of(porous_text(), changes), MPI_COMM_WORLD);
     advance_to(200, 0, sim);
     expect_plain_sums(sim);
   }
-  Simulation<3> sim = start<3>(scene_of(ball_text), MPI_COMM_WORLD);
+  Simulation<3> sim = start<3>(scene_of(balls_text()), MPI_COMM_WORLD);
   advance_to(40, 0, sim);
   expect_plain_sums(sim);
 }

@@ -61,23 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                                  "material.0.kinematic_share=0.5"}));
 
 TEST(Conservation, EnergyClosesIn3D) {
-  const std::string text = std::string(R"(
-[domain]
-size = [60e-6, 60e-6, 160e-6]
-cell = 10e-6
-periodic = true
-[boundary]
-low = "wall"
-[sample]
-kind = "random_voids"
-height = 140e-6
-porosity = 0.08
-void_radius = 18e-6
-[loading]
-velocity = 1100
-[time]
-end = 1e-6
-)") + aluminium_text;
+  const std::string text = balls_text();
   for (const auto& transfer : all_transfers()) {
     EXPECT_LT(std::abs(drift_after<3>(scene_of(text, transfer), 60)), 1e-12) << transfer.front();
   }

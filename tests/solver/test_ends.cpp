@@ -2,11 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
-#include "poreshock/output/checkpoint.hpp"
-#include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
+#include "support/same_bits.hpp"
 
 namespace poreshock::test {
 namespace {
@@ -95,25 +93,10 @@ TEST(Ends, EnergyThatLeavesIsInTheLedger) {
 
 TEST(Ends, SameBitsOnAnyRanksAndAfterARestart) {
   const Scene scene = scene_of(porous_text(), {"boundary.high={kind='free', behind='aluminium'}"});
-  const auto run = [&](int ranks) {
-    std::uint64_t bits = 0;
-    on_ranks(ranks, [&](MPI_Comm part) {
-      Simulation<2> sim = start<2>(scene, part);
-      advance_to(200, 0, sim);
-      bits = checksum(sim);
-    });
-    return from_rank_zero(bits);
-  };
-  const std::uint64_t alone = run(1);
-  EXPECT_EQ(run(size(MPI_COMM_WORLD)), alone);
-  const std::string path =
-      std::filesystem::absolute("ends_" + std::to_string(size(MPI_COMM_WORLD)) + ".h5");
-  Simulation<2> first = start<2>(scene, MPI_COMM_WORLD);
-  advance_to(120, 0, first);
-  write_checkpoint(path, first.scene_text, run_state(first), first.particles, MPI_COMM_WORLD);
-  Simulation<2> second = resume<2>(scene, path, MPI_COMM_WORLD);
-  advance_to(200, 0, second);
-  EXPECT_EQ(checksum(second), alone);
+  const int all = size(MPI_COMM_WORLD);
+  const std::uint64_t alone = checksum_after<2>(scene, 1, 200);
+  EXPECT_EQ(checksum_after<2>(scene, all, 200), alone);
+  EXPECT_EQ(checksum_with_restart<2>(scene, all, all, 120, 200), alone);
 }
 
 }  // namespace

@@ -1,28 +1,12 @@
 // The same scene gives the same bits on any number of ranks, with or without restart or rebalance.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "poreshock/output/checkpoint.hpp"
-#include "poreshock/run/checksum.hpp"
-#include "support/runs.hpp"
+#include "support/same_bits.hpp"
 
 namespace poreshock::test {
 namespace {
 
 constexpr std::int64_t steps = 200;
-
-template <int Dim>
-std::uint64_t checksum_after(const Scene& scene, int ranks, std::int64_t last,
-                             std::int64_t rebalance_every = 0) {
-  std::uint64_t result = 0;
-  on_ranks(ranks, [&](MPI_Comm part) {
-    Simulation<Dim> sim = start<Dim>(scene, part);
-    advance_to(last, rebalance_every, sim);
-    result = checksum(sim);
-  });
-  return from_rank_zero(result);
-}
 
 template <int Dim>
 void expect_same_on_all_ranks(const Scene& scene, std::int64_t last) {
@@ -134,27 +118,6 @@ TEST(SameBits, PorousBlockIn3D) {
     SCOPED_TRACE(transfer);
     expect_same_on_all_ranks<3>(scene_of(porous_3d_text(), {transfer}), 60);
   }
-}
-
-/// Writes a checkpoint on `writers` ranks at `middle`, continues on `readers`.
-template <int Dim>
-std::uint64_t checksum_with_restart(const Scene& scene, int writers, int readers,
-                                    std::int64_t middle, std::int64_t last) {
-  const std::string path =
-      std::filesystem::absolute("same_bits_" + std::to_string(size(MPI_COMM_WORLD)) + ".h5");
-  on_ranks(writers, [&](MPI_Comm part) {
-    Simulation<Dim> sim = start<Dim>(scene, part);
-    advance_to(middle, 0, sim);
-    write_checkpoint(path, sim.scene_text, run_state(sim), sim.particles, part);
-  });
-  std::uint64_t result = 0;
-  on_ranks(readers, [&](MPI_Comm part) {
-    Simulation<Dim> sim = resume<Dim>(scene, path, part);
-    EXPECT_EQ(sim.clock.step, middle);
-    advance_to(last, 0, sim);
-    result = checksum(sim);
-  });
-  return from_rank_zero(result);
 }
 
 TEST(SameBits, RestartMidShockOnOtherRanks) {

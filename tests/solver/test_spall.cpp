@@ -11,12 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "poreshock/material/derived.hpp"
-#include "poreshock/output/checkpoint.hpp"
-#include "poreshock/run/checksum.hpp"
 #include "support/runs.hpp"
+#include "support/same_bits.hpp"
 
 namespace poreshock::test {
 namespace {
@@ -193,25 +191,10 @@ TEST(Spall, ScabFliesAway) {
 
 TEST(Spall, SameBitsOnAnyRanksAndAfterARestart) {
   const Scene scene = plain_scene_of(flyer_text());
-  const auto run = [&](int ranks) {
-    std::uint64_t bits = 0;
-    on_ranks(ranks, [&](MPI_Comm part) {
-      Simulation<2> sim = start<2>(scene, part);
-      advance_to(400, 0, sim);
-      bits = checksum(sim);
-    });
-    return from_rank_zero(bits);
-  };
-  const std::uint64_t alone = run(1);
-  EXPECT_EQ(run(size(MPI_COMM_WORLD)), alone);
-  const std::string path =
-      std::filesystem::absolute("spall_" + std::to_string(size(MPI_COMM_WORLD)) + ".h5");
-  Simulation<2> first = start<2>(scene, MPI_COMM_WORLD);
-  advance_to(250, 0, first);
-  write_checkpoint(path, first.scene_text, run_state(first), first.particles, MPI_COMM_WORLD);
-  Simulation<2> second = resume<2>(scene, path, MPI_COMM_WORLD);
-  advance_to(400, 0, second);
-  EXPECT_EQ(checksum(second), alone);
+  const int all = size(MPI_COMM_WORLD);
+  const std::uint64_t alone = checksum_after<2>(scene, 1, 400);
+  EXPECT_EQ(checksum_after<2>(scene, all, 400), alone);
+  EXPECT_EQ(checksum_with_restart<2>(scene, all, all, 250, 400), alone);
 }
 
 TEST(Spall, CostsNothingWithoutAStrength) {

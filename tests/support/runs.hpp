@@ -51,6 +51,28 @@ end = 1e-6
          more;
 }
 
+/// Block of 6 x 6 x 14 cells with spherical voids (void fraction 0.08) that hits a wall at 1100
+/// m/s.
+inline std::string balls_text() {
+  return std::string(R"(
+[domain]
+size = [60e-6, 60e-6, 160e-6]
+cell = 10e-6
+periodic = true
+[boundary]
+low = "wall"
+[sample]
+kind = "random_voids"
+height = 140e-6
+porosity = 0.08
+void_radius = 18e-6
+[loading]
+velocity = 1100
+[time]
+end = 1e-6
+)") + aluminium_text;
+}
+
 /// Bed of 14 grains of 30 um radius on 20 x 34 cells that hits a wall at 1100 m/s.
 inline std::string grains_text(const std::string& more = "") {
   return std::string(R"(
