@@ -48,9 +48,8 @@ TEST(Lanes, FusedRoundsOnce) {
   for (int k = 0; k < lane_count / 2; ++k) EXPECT_EQ(half[k], -0x1p-60);
 }
 
-TEST(Lanes, HalvesAndSum) {
+TEST(Lanes, Halves) {
   const Lanes x = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
-  EXPECT_EQ(sum_of_lanes(x), 255.0);
   const Lanes turned = join(high_half(x), low_half(x));
   for (int k = 0; k < lane_count; ++k) EXPECT_EQ(turned[k], x[(k + 4) % lane_count]);
 }

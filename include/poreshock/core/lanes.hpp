@@ -114,12 +114,6 @@ inline HalfLanes fused(double a, const HalfLanes& b, const HalfLanes& c) {
 #endif
 }
 
-/// Sum of all lanes, in a tree that is the same everywhere.
-inline double sum_of_lanes(const Lanes& x) {
-  const HalfLanes four = low_half(x) + high_half(x);
-  return (four[0] + four[2]) + (four[1] + four[3]);
-}
-
 /// Turns four vectors of four numbers.
 inline void transpose_halves(HalfLanes& a, HalfLanes& b, HalfLanes& c, HalfLanes& d) {
   const HalfLanes even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
