@@ -169,8 +169,10 @@ void warn_crossing(const char* list, const std::vector<const Region*>& regions,
                      "it.");
 }
 
-/// Pieces of one grain share one velocity field, which lets them neither rebound nor slide.
+/// Pieces of one grain share one velocity field, which lets them neither rebound nor slide, unless
+/// the grain has contact with itself.
 void warn_welds(const Scene& scene, std::vector<std::string>& warnings) {
+  if (scene.contact.self) return;
   const Body sample;
   std::map<int, std::pair<std::string, const Body*>> first;
   const SampleKind kind = scene.sample.kind;
