@@ -110,10 +110,14 @@ TEST(Invariance, MirrorAndShiftWithCubicApic) {
   mirror_and_shift({}, meets_bars("invariance_cubic_apic"));
 }
 
-TEST(Invariance, MirrorAndShiftWithPolyFlip) {
+TEST(Invariance, MirrorAndShiftWithAflip) {
   // Where a limiter sets in, rounding decides which of two jumps is the smaller.
   mirror_and_shift(default_scheme(), [](const auto& figure, double found, std::int64_t steps) {
-    verify_known_shortfall("invariance_aflip", figure, found, bar_after(steps), 1e-8);
+    if (steps == 100) {
+      verify_known_shortfall("invariance_aflip", figure, found, bar_after(steps), 1e-11);
+    } else {
+      verify_at_most("invariance_aflip", figure, found, bar_after(steps));
+    }
   });
 }
 

@@ -236,12 +236,12 @@ TEST(Vortex, CubicApicConvergesAtLargeAmplitude) {
   converge("vortex_cubic_apic_0.2", 0.2, {});
 }
 
-TEST(Vortex, PolyFlipConvergesAtSmallAmplitude) {
-  converge("vortex_polyflip_0.05", 0.05, with_transfer(VelocityTransfer::polyflip));
+TEST(Vortex, AflipConvergesAtSmallAmplitude) {
+  converge("vortex_aflip_0.05", 0.05, default_scheme());
 }
 
-TEST(Vortex, PolyFlipConvergesAtLargeAmplitude) {
-  converge("vortex_polyflip_0.2", 0.2, with_transfer(VelocityTransfer::polyflip), 0.09);
+TEST(Vortex, AflipConvergesAtLargeAmplitude) {
+  converge("vortex_aflip_0.2", 0.2, default_scheme(), 0.06);
 }
 
 TEST(Vortex, CubicFlipConverges) {
