@@ -20,11 +20,6 @@ void keep_each_once(std::vector<Item>& items) {
   items.resize(static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin()));
 }
 
-/// Neighbouring stencil cells along x that hold particles of a grain.
-struct CellRun {
-  std::int32_t row, y, first, last, grain;
-};
-
 /// Runs of the cells, line after line of cells, in a line by their first one.
 std::vector<CellRun> runs_of(std::span<const GrainCell> cells, const GridShape& shape) {
   std::vector<CellRun> runs;
@@ -127,17 +122,20 @@ void near_indices(int index, int reach, int nodes, bool periodic, std::vector<in
 
 }  // namespace
 
-std::vector<GrainPair> near_grains(std::span<const GrainCell> cells, int reach,
-                                   const SlabGrid& grid) {
-  const GridShape& shape = grid.shape();
-  const std::vector<CellRun> own = runs_of(cells, shape);
+std::vector<CellRun> cell_runs(std::span<const GrainCell> cells, int reach, const SlabGrid& grid) {
+  const std::vector<CellRun> own = runs_of(cells, grid.shape());
   std::vector<CellRun> all = gather_all(runs_at_ends(own, reach, grid), grid.communicator());
   std::erase_if(all, [&](const CellRun& r) {
     return r.row < grid.first_row() - reach || r.row >= grid.last_row() + reach ||
            (r.row >= grid.first_row() && r.row < grid.last_row());
   });
   all.insert(all.end(), own.begin(), own.end());
-  const RunMap map(std::move(all), shape);
+  return all;
+}
+
+std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const SlabGrid& grid) {
+  const GridShape& shape = grid.shape();
+  const RunMap map(std::move(runs), shape);
   std::int32_t most = -1;
   for (const CellRun& r : map.runs()) most = std::max(most, r.grain);
   Neighbours near(static_cast<std::size_t>(most + 1));

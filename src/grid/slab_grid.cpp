@@ -67,54 +67,36 @@ SlabLimits slab_limits(const GridShape& shape) {
 }
 
 SlabGrid::SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm communicator)
-    : shape_(shape), starts_(std::move(starts)), communicator_(communicator) {
+    : SlabGrid(shape, std::move(starts), communicator, std::make_shared<NodeLayout>(), nullptr) {
+  layout_->first_row = first_;
+  layout_->rows = node_end_ - first_;
+  layout_->row_size = shape.row_size;
+  if (has_below_ || has_above_) {
+    seam_ = std::make_shared<Seam>(shape.row_size, planes_, communicator);
+  }
+  take_fields(1);
+  clear();
+}
+
+SlabGrid::SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm communicator,
+                   std::shared_ptr<NodeLayout> layout, std::shared_ptr<Seam> seam)
+    : shape_(shape),
+      starts_(std::move(starts)),
+      communicator_(communicator),
+      layout_(std::move(layout)),
+      seam_(std::move(seam)) {
   const int me = rank(communicator);
-  const int ranks = size(communicator);
   const int depth = shape.stencil - 1;
   first_ = starts_[me];
   last_ = starts_[me + 1];
   has_below_ = me > 0;
-  has_above_ = me + 1 < ranks;
+  has_above_ = me + 1 < size(communicator);
   node_end_ = has_above_ ? last_ + depth : shape.rows;
   planes_ = depth * (depth + 1) / 2;
-
-  std::vector<PetscInt> rows_per_rank;
-  rows_per_rank.reserve(static_cast<std::size_t>(ranks));
-  for (int r = 0; r < ranks; ++r) rows_per_rank.push_back(starts_[r + 1] - starts_[r]);
-  const PetscInt all[1] = {shape.row_size};
-  // Lateral axes stay whole on every rank, so one flattened lateral axis serves 2-D and 3-D.
-  check_petsc(DMDACreate2d(communicator, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX,
-                           shape.row_size, shape.rows, 1, ranks, lane_count, depth, all,
-                           rows_per_rank.data(), &node_dm_),
-              "DMDACreate2d for the nodes");
-  check_petsc(DMSetUp(node_dm_), "DMSetUp for the nodes");
-  const std::vector<PetscInt> seam_rows(static_cast<std::size_t>(ranks), 2 * planes_);
-  check_petsc(DMDACreate2d(communicator, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_BOX,
-                           shape.row_size, 2 * planes_ * ranks, 1, ranks, lane_count, planes_, all,
-                           seam_rows.data(), &seam_dm_),
-              "DMDACreate2d for the seam");
-  check_petsc(DMSetUp(seam_dm_), "DMSetUp for the seam");
-  check_petsc(DMCreateLocalVector(node_dm_, &node_vector_), "DMCreateLocalVector");
-  check_petsc(DMCreateLocalVector(seam_dm_, &seam_vector_), "DMCreateLocalVector");
-  check_petsc(VecGetArray(node_vector_, &node_array_), "VecGetArray");
-  check_petsc(VecGetArray(seam_vector_, &seam_array_), "VecGetArray");
-  PetscInt ghost_row = 0;
-  check_petsc(
-      DMDAGetGhostCorners(node_dm_, nullptr, &ghost_row, nullptr, nullptr, nullptr, nullptr),
-      "DMDAGetGhostCorners");
-  nodes_ = reinterpret_cast<Lanes*>(node_array_) +
-           static_cast<std::ptrdiff_t>(first_ - ghost_row) * shape.row_size;
-  seam_ = reinterpret_cast<Lanes*>(seam_array_) +
-          static_cast<std::ptrdiff_t>(has_below_ ? planes_ : 0) * shape.row_size;
 }
 
-SlabGrid::~SlabGrid() {
-  VecRestoreArray(node_vector_, &node_array_);
-  VecRestoreArray(seam_vector_, &seam_array_);
-  VecDestroy(&node_vector_);
-  VecDestroy(&seam_vector_);
-  DMDestroy(&node_dm_);
-  DMDestroy(&seam_dm_);
+std::unique_ptr<SlabGrid> SlabGrid::sibling() const {
+  return std::unique_ptr<SlabGrid>(new SlabGrid(shape_, starts_, communicator_, layout_, seam_));
 }
 
 int SlabGrid::owner(int row) const {
@@ -135,64 +117,67 @@ int SlabGrid::up_plane(int row_offset, int node_offset) const {
 }
 
 void SlabGrid::clear() {
-  const std::ptrdiff_t width = shape_.row_size;
-  set_zero(nodes_, (node_end_ - first_) * width);
-  set_zero(seam_, 2 * planes_ * width);
+  // A vector alone would double its room when a few nodes are added.
+  if (layout_->size > nodes_.capacity()) {
+    nodes_ = {};
+    nodes_.reserve(layout_->size + layout_->size / 16);
+  }
+  nodes_.resize(layout_->size);
+  set_zero(nodes_.data(), static_cast<std::ptrdiff_t>(nodes_.size()));
+  if (!seam_) return;
+  for (int field = 0; field < fields(); ++field) {
+    set_zero(seam_->field(field), std::ptrdiff_t{2} * planes_ * shape_.row_size);
+  }
 }
 
-void SlabGrid::add_row(int row, const Lanes* buffer) {
+void SlabGrid::add_row(int row, const Lanes* buffer, int field) {
   const std::ptrdiff_t width = shape_.row_size;
   const int depth = shape_.stencil - 1;
   for (int k = 0; k <= depth; ++k) {
     const int node_row = row + k;
     const Lanes* source = buffer + k * width;
+    Lanes* plane = nullptr;
     if (has_below_ && node_row < first_ + depth) {
-      std::copy(source, source + width,
-                seam_ + down_plane(row - first_, node_row - first_) * width);
+      plane = seam_->field(field) + down_plane(row - first_, node_row - first_) * width;
     } else if (has_above_ && node_row >= last_) {
-      std::copy(source, source + width,
-                seam_ + up_plane(row - (last_ - depth), node_row - last_) * width);
-    } else {
-      Lanes* target = this->row(node_row);
-      for (std::ptrdiff_t i = 0; i < width; ++i) target[i] += source[i];
+      plane = seam_->field(field) + up_plane(row - (last_ - depth), node_row - last_) * width;
+    }
+    for (const NodeRun& run : runs_of(*layout_, field, node_row)) {
+      if (plane != nullptr) {
+        std::copy(source + run.first, source + run.last, plane + run.first);
+        continue;
+      }
+      Lanes* target = nodes_.data() + run.shift;
+      for (std::ptrdiff_t i = run.first; i < run.last; ++i) target[i] += source[i];
     }
   }
 }
 
-void SlabGrid::assemble_seam_row(int node_row, const Lanes* below, const Lanes* above, int offset) {
+void SlabGrid::assemble_seam_row(int field, int node_row, const Lanes* below, const Lanes* above,
+                                 int offset) {
   const std::ptrdiff_t width = shape_.row_size;
   const int depth = shape_.stencil - 1;
-  Lanes* target = row(node_row);
-  set_zero(target, width);
-  for (int a = offset; a < depth; ++a) {
-    const Lanes* plane = below + up_plane(a, offset) * width;
-    for (std::ptrdiff_t i = 0; i < width; ++i) target[i] += plane[i];
-  }
-  for (int a = 0; a <= offset; ++a) {
-    const Lanes* plane = above + down_plane(a, offset) * width;
-    for (std::ptrdiff_t i = 0; i < width; ++i) target[i] += plane[i];
+  for (const NodeRun& run : runs_of(*layout_, field, node_row)) {
+    Lanes* target = nodes_.data() + run.shift;
+    const auto add = [&](const Lanes* plane) {
+      for (std::ptrdiff_t i = run.first; i < run.last; ++i) target[i] += plane[i];
+    };
+    set_zero(target + run.first, run.last - run.first);
+    for (int a = offset; a < depth; ++a) add(below + up_plane(a, offset) * width);
+    for (int a = 0; a <= offset; ++a) add(above + down_plane(a, offset) * width);
   }
 }
 
 void SlabGrid::exchange() {
-  const std::ptrdiff_t width = shape_.row_size;
-  const int depth = shape_.stencil - 1;
-  if (has_below_ || has_above_) {
-    check_petsc(VecRestoreArray(seam_vector_, &seam_array_), "VecRestoreArray");
-    check_petsc(DMLocalToLocalBegin(seam_dm_, seam_vector_, INSERT_VALUES, seam_vector_),
-                "DMLocalToLocalBegin");
-    check_petsc(DMLocalToLocalEnd(seam_dm_, seam_vector_, INSERT_VALUES, seam_vector_),
-                "DMLocalToLocalEnd");
-    check_petsc(VecGetArray(seam_vector_, &seam_array_), "VecGetArray");
-  }
+  const std::ptrdiff_t neighbour = std::ptrdiff_t{2} * planes_ * shape_.row_size;
+  if (seam_) seam_->exchange(fields());
   // The neighbour below shares its upper planes, at -planes_ ... -1 of mine; counted from its first
   // plane they start at planes_. The neighbour above shares its lower planes, right after mine.
-  for (int offset = 0; offset < depth; ++offset) {
-    if (has_below_) {
-      assemble_seam_row(first_ + offset, seam_ - 2 * planes_ * width, seam_, offset);
-    }
-    if (has_above_) {
-      assemble_seam_row(last_ + offset, seam_, seam_ + 2 * planes_ * width, offset);
+  for (int field = 0; field < fields(); ++field) {
+    for (int offset = 0; offset < shape_.stencil - 1; ++offset) {
+      const Lanes* own = seam_ ? seam_->field(field) : nullptr;
+      if (has_below_) assemble_seam_row(field, first_ + offset, own - neighbour, own, offset);
+      if (has_above_) assemble_seam_row(field, last_ + offset, own, own + neighbour, offset);
     }
   }
   fold_periodic();
@@ -224,28 +209,51 @@ void for_each_image(const GridShape& shape, Visitor&& visit) {
 
 }  // namespace
 
+void SlabGrid::take_fields(int fields) {
+  take_all_nodes(fields, *layout_);
+  if (seam_) seam_->make_fields(fields);
+}
+
+void SlabGrid::finish_fields() {
+  for (int r = first_; r < node_end_; ++r) {
+    for (int field = 0; field < fields(); ++field) {
+      for_each_image(shape_, [&](int image, int original) {
+        if (shift_at(*layout_, field, r, image) == no_tile) return;
+        mark_nodes(field, r, original, original + 1, *layout_);
+      });
+    }
+  }
+  finish_layout(*layout_);
+  if (seam_) seam_->make_fields(fields());
+}
+
+// Where only one of both is there, it has come with a tile and belongs to no particle.
 void SlabGrid::fold_periodic() {
   for (int r = first_; r < node_end_; ++r) {
-    Lanes* nodes = row(r);
-    for_each_image(shape_, [nodes](int image, int original) {
-      nodes[original] += nodes[image];
-      nodes[image] = Lanes{};
-    });
+    for (int field = 0; field < fields(); ++field) {
+      for_each_image(shape_, [&](int image, int original) {
+        Lanes *from = find(field, r, image), *to = find(field, r, original);
+        if (from == nullptr || to == nullptr) return;
+        *to += *from;
+        *from = Lanes{};
+      });
+    }
   }
 }
 
 void SlabGrid::fill_periodic_images() {
   for (int r = first_; r < node_end_; ++r) {
-    Lanes* nodes = row(r);
-    for_each_image(shape_, [nodes](int image, int original) { nodes[image] = nodes[original]; });
+    for (int field = 0; field < fields(); ++field) {
+      for_each_image(shape_, [&](int image, int original) {
+        Lanes *to = find(field, r, image), *from = find(field, r, original);
+        if (from != nullptr && to != nullptr) *to = *from;
+      });
+    }
   }
 }
 
 std::size_t SlabGrid::bytes() const {
-  PetscInt nodes = 0, seam = 0;
-  VecGetLocalSize(node_vector_, &nodes);
-  VecGetLocalSize(seam_vector_, &seam);
-  return sizeof(double) * static_cast<std::size_t>(nodes + seam);
+  return sizeof(Lanes) * nodes_.size() + (seam_ ? seam_->bytes() : 0);
 }
 
 }  // namespace poreshock

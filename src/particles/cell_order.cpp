@@ -3,7 +3,7 @@
 namespace poreshock {
 
 void sort_by_cell(const std::vector<std::uint32_t>& cell, std::size_t cells,
-                  const std::vector<std::int32_t>& grain, const std::vector<std::int64_t>& id,
+                  const std::vector<std::int32_t>& part, const std::vector<std::int64_t>& id,
                   CellOrder& result) {
   result.start.assign(cells + 1, 0);
   result.order.resize(cell.size());
@@ -15,7 +15,7 @@ void sort_by_cell(const std::vector<std::uint32_t>& cell, std::size_t cells,
   result.start[0] = 0;
 
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    return grain[a] != grain[b] ? grain[a] < grain[b] : id[a] < id[b];
+    return part[a] != part[b] ? part[a] < part[b] : id[a] < id[b];
   };
   std::uint32_t* order = result.order.data();
   for (std::size_t c = 0; c < cells; ++c) {

@@ -31,6 +31,12 @@ AxisPlace axis_place(int index, int count, const SideLaw& low, const SideLaw& hi
   return {};
 }
 
+/// The nodes of one velocity field.
+struct FieldNodes {
+  SlabGrid* grid;
+  int field;
+};
+
 /// One set of mirror nodes: up to 2^Dim members with the signs that map their velocities onto the
 /// first one's.
 template <int Dim>
@@ -49,7 +55,8 @@ struct MirrorSet {
 template <int Dim>
 MirrorSet<Dim> mirror_set(const std::array<AxisPlace, Dim>& place,
                           const std::array<bool, Dim>& active, const std::array<int, Dim>& index,
-                          SlabGrid& grid) {
+                          FieldNodes nodes) {
+  SlabGrid& grid = *nodes.grid;
   MirrorSet<Dim> set;
   set.place = place;
   for (int flips = 0; flips < (1 << Dim); ++flips) {
@@ -67,7 +74,9 @@ MirrorSet<Dim> mirror_set(const std::array<AxisPlace, Dim>& place,
     if (!valid) continue;
     std::ptrdiff_t lateral = at[0];
     if constexpr (Dim == 3) lateral += static_cast<std::ptrdiff_t>(at[1]) * grid.shape().nodes[0];
-    set.member[set.size++] = {grid.row(at[Dim - 1]) + lateral, sign, at[Dim - 1] < grid.last_row()};
+    Lanes* const node = grid.find(nodes.field, at[Dim - 1], static_cast<int>(lateral));
+    // What the field does not have has no mass, and no particle sees it.
+    if (node != nullptr) set.member[set.size++] = {node, sign, at[Dim - 1] < grid.last_row()};
   }
   return set;
 }
@@ -168,8 +177,8 @@ void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity,
 template <int Dim>
 void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim>& active,
              const std::array<int, Dim>& index, const Vector<Dim>& plane, double friction,
-             SlabGrid& grid, NodeLedger& ledger) {
-  const MirrorSet<Dim> set = mirror_set<Dim>(place, active, index, grid);
+             FieldNodes nodes, NodeLedger& ledger) {
+  const MirrorSet<Dim> set = mirror_set<Dim>(place, active, index, nodes);
   double mass = 0.0;
   std::array<double, Dim> velocity = symmetric_velocity<Dim>(set, plane, mass);
   if (!(mass > 0.0)) return;
@@ -181,11 +190,11 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
     bool any = false;
     for (int b = 0; b < Dim; ++b) any = any || rest[b];
     if (!any) return;
-    project<Dim>(place, rest, index, plane, friction, grid, ledger);
+    project<Dim>(place, rest, index, plane, friction, nodes, ledger);
     if (place[a].place == Place::mirrored) {
       std::array<int, Dim> other = index;
       other[a] = place[a].image;
-      project<Dim>(place, rest, other, plane, friction, grid, ledger);
+      project<Dim>(place, rest, other, plane, friction, nodes, ledger);
     }
     return;
   }
@@ -196,6 +205,16 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
     rubbed = rub<Dim>(friction, push, mass, velocity);
   }
   impose<Dim>(set, velocity, rubbed, mass, plane, ledger);
+}
+
+/// Calls visit(field, lateral) for all nodes of a row that a field has.
+template <class Visit>
+void for_each_place(const SlabGrid& grid, int row, Visit&& visit) {
+  for (int field = 0; field < grid.fields(); ++field) {
+    for (const NodeRun& run : runs_of(grid.layout(), field, row)) {
+      for (int lateral = run.first; lateral < run.last; ++lateral) visit(field, lateral);
+    }
+  }
 }
 
 }  // namespace
@@ -225,7 +244,7 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
   }
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     if (!sides && row > 2 && row < shape.rows - 3) continue;
-    for (int lateral = 0; lateral < shape.row_size; ++lateral) {
+    for_each_place(grid, row, [&](int field, int lateral) {
       std::array<int, Dim> index;
       index[0] = lateral % shape.nodes[0];
       if constexpr (Dim == 3) index[1] = lateral / shape.nodes[0];
@@ -241,10 +260,10 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
         const bool beyond = index[a] == 0 || index[a] == shape.nodes[a] - 1;
         original = original && !(active[a] && beyond);
       }
-      if (!any || !original) continue;
+      if (!any || !original) return;
       const Side& side = place[Dim - 1].inward > 0 ? boundary.low : boundary.high;
-      project<Dim>(place, active, index, grid_velocity, side.friction, grid, ledger);
-    }
+      project<Dim>(place, active, index, grid_velocity, side.friction, {&grid, field}, ledger);
+    });
   }
 }
 

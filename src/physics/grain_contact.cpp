@@ -52,12 +52,11 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
 }
 
 template <int Dim>
-void collide_node(const std::vector<ContactField>& fields, int row, int node, bool owned,
-                  const ContactSettings& settings, const FaceTable& faces,
-                  std::span<const NodePoint<Dim>> points, NodeLedger& ledger,
-                  ContactSummary& summary) {
+void collide_node(const ContactGrids& grids, const NodePlace& node, const ContactSettings& settings,
+                  const FaceTable& faces, std::span<const NodePoint<Dim>> points,
+                  NodeLedger& ledger, ContactSummary& summary) {
   Entries<Dim> entries;
-  const int count = read_entries<Dim>(fields, row, node, entries);
+  const int count = read_entries<Dim>(grids, node, entries);
   std::array<NodeGrain<Dim>, most_grains_at_node> grains;
   for (int k = 0; k < count; ++k) grains[k] = entries[k].grain;
   Vector<Dim> normal;
@@ -65,7 +64,7 @@ void collide_node(const std::vector<ContactField>& fields, int row, int node, bo
       std::span<NodeGrain<Dim>>(grains.data(), static_cast<std::size_t>(count)), settings, faces,
       parting<Dim>(points, entries, count, normal));
   for (int k = 0; k < count; ++k) entries[k].grain = grains[k];
-  if (owned) {
+  if (node.row < grids.motion.last_row()) {
     ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
     ledger.friction_heat += quantise(report.friction_heat, ledger.inverse_energy_quantum);
     if (report.pairs > 0) ++summary.nodes;
@@ -92,76 +91,78 @@ double node_capacity(const GridShape& shape, const Transfer& transfer, int row, 
   return space * share_inside(lateral / shape.nodes[0], shape.nodes[1], shape.periodic[1], beyond);
 }
 
-std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass_lane) {
-  const SlabGrid& grid = *fields.front().motion;
-  const int width = grid.shape().row_size;
-  std::vector<bool> shared(static_cast<std::size_t>(grid.node_end() - grid.first_row()) * width);
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * width;
-    for (int i = 0; i < width; ++i) {
-      int count = 0;
-      for (const ContactField& field : fields) {
-        if (field.motion->row(row)[i][mass_lane] > 0.0) ++count;
+std::vector<NodePlace> shared_nodes(const SlabGrid& motion, int mass_lane) {
+  std::vector<NodePlace> shared;
+  if (motion.fields() == 1) return shared;
+  std::vector<std::int8_t> count(static_cast<std::size_t>(motion.shape().row_size));
+  for (int row = motion.first_row(); row < motion.node_end(); ++row) {
+    std::ranges::fill(count, 0);
+    for (int field = 0; field < motion.fields(); ++field) {
+      for (const NodeRun& run : runs_of(motion.layout(), field, row)) {
+        const Lanes* const nodes = motion.line(field, row, run.first) - run.first;
+        for (int i = run.first; i < run.last; ++i) {
+          if (nodes[i][mass_lane] > 0.0) ++count[static_cast<std::size_t>(i)];
+        }
       }
-      shared[at + i] = count > 1;
+    }
+    for (std::size_t i = 0; i < count.size(); ++i) {
+      if (count[i] > 1) shared.push_back({row, static_cast<std::int32_t>(i)});
     }
   }
   return shared;
 }
 
 template <int Dim>
-ContactSummary collide_grains(const std::vector<ContactField>& fields,
-                              const std::vector<bool>& shared, const Scene& scene,
-                              const ContactSettings& settings, const FaceTable& faces,
-                              const NodePoints<Dim>& points, NodeLedger& ledger) {
-  const SlabGrid& grid = *fields.front().motion;
+ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodePlace>& shared,
+                              const Scene& scene, const ContactSettings& settings,
+                              const FaceTable& faces, const NodePoints<Dim>& points,
+                              NodeLedger& ledger) {
+  const GridShape& shape = grids.motion.shape();
   ContactSummary summary;
-  for_each_shared(grid, shared, [&](int row, int i, std::size_t number) {
+  for (std::size_t n = 0; n < shared.size(); ++n) {
+    const NodePlace& node = shared[n];
     ContactSettings here = settings;
-    here.capacity = node_capacity(grid.shape(), scene.transfer, row, i);
-    here.mirrored = is_mirrored(scene.boundary, grid.shape(), row, i);
+    here.capacity = node_capacity(shape, scene.transfer, node.row, node.lateral);
+    here.mirrored = is_mirrored(scene.boundary, shape, node.row, node.lateral);
     if (here.mirrored) here.kept = 0.0;
-    collide_node<Dim>(fields, row, i, row < grid.last_row(), here, faces, points_of(points, number),
-                      ledger, summary);
-  });
+    collide_node<Dim>(grids, node, here, faces, points_of(points, n), ledger, summary);
+  }
   return summary;
 }
 
 template <int Dim>
-void settle_contact_heat(const std::vector<ContactField>& fields, const std::vector<bool>& shared,
+void settle_contact_heat(const ContactGrids& grids, const std::vector<NodePlace>& shared,
                          const Boundary& boundary, NodeLedger& ledger) {
   using Motion = MotionLane<Dim>;
   using Collision = CollisionLane<Dim>;
-  const SlabGrid& grid = *fields.front().motion;
-  for_each_shared(grid, shared, [&](int row, int i, std::size_t) {
-    if (!is_mirrored(boundary, grid.shape(), row, i)) return;
-    for (const ContactField& field : fields) {
-      Lanes& motion = field.motion->row(row)[i];
-      const Lanes& collision = field.surface->row(row)[i];
-      if (!(motion[Motion::mass] > 0.0)) continue;
+  for (const NodePlace& node : shared) {
+    if (!is_mirrored(boundary, grids.motion.shape(), node.row, node.lateral)) continue;
+    for (int field = 0; field < grids.motion.fields(); ++field) {
+      Lanes* const motion = grids.motion.find(field, node.row, node.lateral);
+      if (motion == nullptr || !((*motion)[Motion::mass] > 0.0)) continue;
+      const Lanes& collision = *grids.surfaces.line(field, node.row, node.lateral);
       double heat = 0.0;
       for (int a = 0; a < Dim; ++a) {
-        const double moved = motion[Motion::end_velocity + a] - collision[Collision::end + a];
+        const double moved = (*motion)[Motion::end_velocity + a] - collision[Collision::end + a];
         heat -= collision[Collision::change + a] * (0.5 * moved);
       }
-      motion[Motion::heat] += heat;
-      if (row >= grid.last_row()) continue;
-      ledger.contact_heat += quantise(motion[Motion::mass] * heat, ledger.inverse_energy_quantum);
+      (*motion)[Motion::heat] += heat;
+      if (node.row >= grids.motion.last_row()) continue;
+      ledger.contact_heat +=
+          quantise((*motion)[Motion::mass] * heat, ledger.inverse_energy_quantum);
     }
-  });
+  }
 }
 
-template void settle_contact_heat<2>(const std::vector<ContactField>&, const std::vector<bool>&,
+template void settle_contact_heat<2>(const ContactGrids&, const std::vector<NodePlace>&,
                                      const Boundary&, NodeLedger&);
-template void settle_contact_heat<3>(const std::vector<ContactField>&, const std::vector<bool>&,
+template void settle_contact_heat<3>(const ContactGrids&, const std::vector<NodePlace>&,
                                      const Boundary&, NodeLedger&);
-template ContactSummary collide_grains<2>(const std::vector<ContactField>&,
-                                          const std::vector<bool>&, const Scene&,
-                                          const ContactSettings&, const FaceTable&,
+template ContactSummary collide_grains<2>(const ContactGrids&, const std::vector<NodePlace>&,
+                                          const Scene&, const ContactSettings&, const FaceTable&,
                                           const NodePoints<2>&, NodeLedger&);
-template ContactSummary collide_grains<3>(const std::vector<ContactField>&,
-                                          const std::vector<bool>&, const Scene&,
-                                          const ContactSettings&, const FaceTable&,
+template ContactSummary collide_grains<3>(const ContactGrids&, const std::vector<NodePlace>&,
+                                          const Scene&, const ContactSettings&, const FaceTable&,
                                           const NodePoints<3>&, NodeLedger&);
 
 }  // namespace poreshock

@@ -53,14 +53,13 @@ NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
 
 /// Fields with mass at a node, in their order; returns how many.
 template <int Dim>
-int read_entries(const std::vector<ContactField>& fields, int row, int node,
-                 Entries<Dim>& entries) {
+int read_entries(const ContactGrids& grids, const NodePlace& node, Entries<Dim>& entries) {
   int count = 0;
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    Lanes& motion = fields[f].motion->row(row)[node];
-    if (!(motion[MotionLane<Dim>::mass] > 0.0) || count == most_grains_at_node) continue;
-    Lanes& surface = fields[f].surface->row(row)[node];
-    const Entry<Dim> entry{read_grain<Dim>(motion, surface), &motion, &surface,
+  for (int f = 0; f < grids.motion.fields(); ++f) {
+    Lanes* const motion = grids.motion.find(f, node.row, node.lateral);
+    if (motion == nullptr || !((*motion)[MotionLane<Dim>::mass] > 0.0)) continue;
+    Lanes* const surface = grids.surfaces.line(f, node.row, node.lateral);
+    const Entry<Dim> entry{read_grain<Dim>(*motion, *surface), motion, surface,
                            static_cast<std::int8_t>(f)};
     int place = count++;
     for (; place > 0 && comes_before<Dim>(entry, entries[place - 1]); --place) {
@@ -69,18 +68,6 @@ int read_entries(const std::vector<ContactField>& fields, int row, int node,
     entries[place] = entry;
   }
   return count;
-}
-
-/// Calls visit(row, node, its number) for all shared nodes.
-template <class Visit>
-void for_each_shared(const SlabGrid& grid, const std::vector<bool>& shared, Visit&& visit) {
-  const int width = grid.shape().row_size;
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * width;
-    for (int i = 0; i < width; ++i) {
-      if (shared[at + i]) visit(row, i, at + i);
-    }
-  }
 }
 
 /// Normal from the first to the second of two fields at a node, from the points there; null where

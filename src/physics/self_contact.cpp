@@ -73,13 +73,11 @@ struct NodeRows {
 
 /// Calls visit(sides, rows, i) for every node with material, i in its row.
 template <class Visit>
-void for_each_node(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids,
-                   Visit&& visit) {
-  const SlabGrid& grid = *grids.front();
+void for_each_node(const std::vector<NodeSides>& sides, SlabGrid& grid, Visit&& visit) {
   NodeRows rows;
   std::size_t node = 0;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    for (int f = 0; f < facing_quarters; ++f) rows.of[f] = grids[f]->row(row);
+    for (int f = 0; f < facing_quarters; ++f) rows.of[f] = grid.row(row, f);
     for (int i = 0; i < grid.shape().row_size; ++i, ++node) {
       if (sides[node] != NodeSides{}) visit(sides[node], rows, i);
     }
@@ -113,31 +111,31 @@ NodeSides sides_of_node(const QuarterSums& quarters) {
   return sides;
 }
 
-std::vector<NodeSides> find_sides(const std::vector<SlabGrid*>& surfaces) {
-  const SlabGrid& grid = *surfaces.front();
-  const int width = grid.shape().row_size;
+std::vector<NodeSides> find_sides(const SlabGrid& surfaces) {
+  const int width = surfaces.shape().row_size;
   std::vector<NodeSides> sides;
-  sides.reserve(static_cast<std::size_t>(grid.node_end() - grid.first_row()) * width);
+  sides.reserve(static_cast<std::size_t>(surfaces.node_end() - surfaces.first_row()) * width);
   QuarterSums quarters;
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
+  for (int row = surfaces.first_row(); row < surfaces.node_end(); ++row) {
     for (int i = 0; i < width; ++i) {
-      for (int f = 0; f < facing_quarters; ++f) quarters[f] = surfaces[f]->row(row)[i];
+      for (int f = 0; f < facing_quarters; ++f) quarters[f] = surfaces.row(row, f)[i];
       sides.push_back(sides_of_node(quarters));
     }
   }
   return sides;
 }
 
-void join_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
-  for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
+void join_sides(const std::vector<NodeSides>& sides, SlabGrid& grid) {
+  for_each_node(sides, grid, [](const NodeSides& node, const NodeRows& rows, int i) {
     const Lanes first = sum_at(rows, i, node.first), second = sum_at(rows, i, node.second);
     rows.of[0][i] = first;
     rows.of[1][i] = second;
+    for (int f = 2; f < facing_quarters; ++f) rows.of[f][i] = Lanes{};
   });
 }
 
-void spread_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids) {
-  for_each_node(sides, grids, [](const NodeSides& node, const NodeRows& rows, int i) {
+void spread_sides(const std::vector<NodeSides>& sides, SlabGrid& grid) {
+  for_each_node(sides, grid, [](const NodeSides& node, const NodeRows& rows, int i) {
     const Lanes first = rows.of[0][i], second = rows.of[1][i];
     for (int f = 0; f < facing_quarters; ++f) {
       rows.of[f][i] = belongs(f, node.first) ? first : (belongs(f, node.second) ? second : Lanes{});

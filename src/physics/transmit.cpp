@@ -32,15 +32,16 @@ void push_ends(const SlabGrid& ends, double dt, SlabGrid& grid, NodeLedger& ledg
   using Motion = MotionLane<Dim>;
   constexpr int axis = Dim - 1;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    Lanes* nodes = grid.row(row);
     const Lanes* forces = ends.row(row);
     for (int i = 0; i < grid.shape().row_size; ++i) {
-      const double mass = nodes[i][Motion::mass], impulse = dt * forces[i][end_force];
+      Lanes* const node = grid.find(0, row, i);
+      if (node == nullptr) continue;
+      const double mass = (*node)[Motion::mass], impulse = dt * forces[i][end_force];
       if (!(mass > 0.0) || impulse == 0.0) continue;
-      nodes[i][Motion::end_velocity + axis] += impulse / mass;
+      (*node)[Motion::end_velocity + axis] += impulse / mass;
       if (row >= grid.last_row()) continue;
       const double middle =
-          0.5 * (nodes[i][Motion::start_velocity + axis] + nodes[i][Motion::end_velocity + axis]);
+          0.5 * ((*node)[Motion::start_velocity + axis] + (*node)[Motion::end_velocity + axis]);
       ledger.wall_impulse[axis] += quantise(impulse, ledger.inverse_momentum_quantum);
       ledger.wall_work += quantise(impulse * middle, ledger.inverse_energy_quantum);
     }

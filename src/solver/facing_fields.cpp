@@ -1,7 +1,7 @@
+#include "poreshock/solver/simulation.hpp"
 #include "poreshock/transfer/facing.hpp"
 #include "poreshock/transfer/node_lanes.hpp"
 #include "poreshock/transfer/surfaces.hpp"
-#include "split_fields.hpp"
 
 namespace poreshock {
 
@@ -9,7 +9,7 @@ template <int Dim>
 void mark_surfaces(Simulation<Dim>& sim) {
   if (!sim.scene.contact.self) return;
   SlabGrid& grid = *sim.grid;
-  scatter_surfaces(sim.particles, sim.cells, sim.scene.transfer, grid);
+  scatter_surfaces(sim.particles, sim.cells, {}, sim.scene.transfer, grid);
   grid.exchange();
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     for (int i = 0; i < grid.shape().row_size; ++i) {
@@ -24,23 +24,15 @@ void mark_surfaces(Simulation<Dim>& sim) {
 template <int Dim>
 void split_by_facing(Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
-  make_fields(facing_quarters, sim);
-  const auto& facing = sim.particles.facing;
-  split(
-      sim.cells, [&](std::uint32_t p) { return facing_quarter(facing[0][p], facing[1][p]); }, all);
-  for (const VelocityField& f : all.fields) {
-    scatter_surfaces(sim.particles, f.cells, sim.scene.transfer, *f.surfaces);
-    f.surfaces->exchange();
+  SlabGrid& grid = *sim.grid;
+  sim.cells.field = {0, 1, 2, 3};
+  if (!all.surfaces) {
+    grid.take_fields(facing_quarters);
+    all.surfaces = grid.sibling();
   }
-  all.sides = find_sides(grids_of(all, &VelocityField::surfaces));
-}
-
-void join_fields(const GrainFields& fields) {
-  if (!fields.sides.empty()) join_sides(fields.sides, grids_of(fields, &VelocityField::grid));
-}
-
-void spread_fields(const GrainFields& fields) {
-  if (!fields.sides.empty()) spread_sides(fields.sides, grids_of(fields, &VelocityField::grid));
+  scatter_surfaces(sim.particles, sim.cells, {}, sim.scene.transfer, *all.surfaces);
+  all.surfaces->exchange();
+  all.sides = find_sides(*all.surfaces);
 }
 
 template void mark_surfaces<2>(Simulation<2>&);

@@ -12,7 +12,6 @@
 #include "poreshock/transfer/node_points.hpp"
 #include "poreshock/transfer/surfaces.hpp"
 #include "poreshock/transfer/sweep.hpp"
-#include "split_fields.hpp"
 
 namespace poreshock {
 
@@ -30,85 +29,40 @@ std::vector<GrainCell> grain_cells(const Simulation<Dim>& sim) {
   return cells;
 }
 
-/// The particles of the chosen cells.
-void choose_cells(const CellOrder& all, const std::vector<bool>& chosen, CellOrder& result) {
-  result.order.clear();
-  result.awake = all.awake;
-  result.start.resize(all.start.size());
-  for (std::size_t c = 0; c + 1 < all.start.size(); ++c) {
-    result.start[c] = static_cast<std::uint32_t>(result.order.size());
-    if (!chosen[c]) continue;
-    result.order.insert(result.order.end(), all.order.begin() + all.start[c],
-                        all.order.begin() + all.start[c + 1]);
-  }
-  result.start.back() = static_cast<std::uint32_t>(result.order.size());
-}
-
-/// True for the stencil cells of this slab that reach a shared node.
-std::vector<bool> cells_at(const std::vector<bool>& shared, const SlabGrid& grid) {
+/// Gives each colour the nodes that its particles reach where they are awake.
+void mark_colours(const std::vector<CellRun>& runs, const std::vector<std::int8_t>& colours,
+                  RowRange awake, const SlabGrid& grid, NodeLayout& layout) {
   const GridShape& shape = grid.shape();
-  const int width = shape.row_size, rows = grid.last_row() - grid.first_row(), w = shape.stencil;
-  std::vector<bool> cells(static_cast<std::size_t>(rows) * width, false);
-  const int planes = shape.dimension == 3 ? w : 1;
-  for (int row = 0; row < grid.node_end() - grid.first_row(); ++row) {
-    for (int i = 0; i < width; ++i) {
-      const std::size_t node = static_cast<std::size_t>(row) * width + original_node(shape, i);
-      if (!shared[node]) continue;
-      for (int k = 0; k < w; ++k) {
-        if (row - k < 0 || row - k >= rows) continue;
-        for (int j = 0; j < planes; ++j) {
-          for (int l = 0; l < w; ++l) {
-            const int lateral = i - j * shape.nodes[0] - l;
-            if (lateral < 0 || i % shape.nodes[0] < l) continue;
-            cells[static_cast<std::size_t>(row - k) * width + lateral] = true;
-          }
-        }
+  const int w = shape.stencil, lines = shape.dimension == 3 ? w : 1;
+  for (const CellRun& r : runs) {
+    if (r.row < awake.first || r.row >= awake.last) continue;
+    const int colour = colours[static_cast<std::size_t>(r.grain)];
+    const int first = std::max(r.row, grid.first_row());
+    for (int row = first; row < std::min(r.row + w, grid.node_end()); ++row) {
+      for (int y = r.y; y < r.y + lines; ++y) {
+        const int line = y * shape.nodes[0];
+        mark_nodes(colour, row, line + r.first, line + r.last + w, layout);
       }
     }
   }
-  return cells;
 }
 
-/// The fields that may collide: all, or the two sides of self-contact.
-std::vector<ContactField> contact_fields(const GrainFields& all) {
-  std::vector<ContactField> fields;
-  for (const VelocityField& f : all.fields) {
-    if (!all.sides.empty() && fields.size() == 2) break;
-    fields.push_back({f.grid, f.surfaces});
-  }
-  return fields;
-}
-
-/// What collisions need: the fields that may collide, and the particles around the nodes they share
-/// where normals come from them.
+/// Surfaces of all fields at the nodes they share; the particles around those nodes where normals
+/// come from them.
 template <int Dim>
-struct Surfaces {
-  std::vector<ContactField> fields;
-  NodePoints<Dim> points;
-};
-
-/// Surfaces of all fields at the nodes they share.
-template <int Dim>
-Surfaces<Dim> find_surfaces(Simulation<Dim>& sim) {
+NodePoints<Dim> find_surfaces(Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
-  Surfaces<Dim> surfaces = {contact_fields(all), {}};
-  all.shared = shared_nodes(surfaces.fields, MotionLane<Dim>::mass);
-  const std::vector<bool> near = cells_at(all.shared, *sim.grid);
-  CellOrder chosen;
-  for (const VelocityField& f : all.fields) {
-    choose_cells(f.cells, near, chosen);
-    scatter_surfaces(sim.particles, chosen, sim.scene.transfer, *f.surfaces);
-    f.surfaces->exchange();
-  }
-  if (!all.sides.empty()) join_sides(all.sides, grids_of(all, &VelocityField::surfaces));
-  if (sim.scene.contact.normal == ContactNormal::regression) {
-    choose_cells(sim.cells, near, chosen);
-    std::vector<CellPoint<Dim>> points =
-        collect_points<Dim>(sim.particles, chosen, all.colours, *sim.grid);
-    exchange_points<Dim>(*sim.grid, points);
-    surfaces.points = points_at_nodes<Dim>(points, all.shared, *sim.grid);
-  }
-  return surfaces;
+  SlabGrid& surfaces = *all.surfaces;
+  all.shared = shared_nodes(*sim.grid, MotionLane<Dim>::mass);
+  const ChosenCells near = cells_at(all.shared, surfaces);
+  scatter_surfaces(sim.particles, sim.cells, near, sim.scene.transfer, surfaces);
+  surfaces.exchange();
+  if (!all.sides.empty()) join_sides(all.sides, surfaces);
+  if (sim.scene.contact.normal != ContactNormal::regression) return {};
+  std::vector<CellPoint<Dim>> points =
+      collect_points<Dim>(sim.particles, sim.cells, near, *sim.grid);
+  exchange_points<Dim>(*sim.grid, points);
+  return points_at_nodes<Dim>(points, all.shared, *sim.grid);
 }
 
 template <int Dim>
@@ -122,21 +76,9 @@ ContactSettings contact_settings(double dt, const Simulation<Dim>& sim) {
 
 }  // namespace
 
-std::vector<FieldView> velocity_fields(const CellOrder& cells, SlabGrid& grid,
-                                       const GrainFields& fields) {
-  if (fields.fields.empty()) return {{&cells, &grid}};
-  std::vector<FieldView> views;
-  for (const VelocityField& field : fields.fields) views.push_back({&field.cells, field.grid});
-  return views;
-}
-
-std::int64_t contact_nodes(const GrainFields& fields) {
-  return fields.fields.empty() ? 0 : std::ranges::count(fields.shared, true);
-}
-
 void release_fields(GrainFields& fields) {
-  fields.fields.clear();
-  fields.grids.clear();
+  fields.surfaces.reset();
+  fields.shared.clear();
   fields.sides.clear();
 }
 
@@ -174,21 +116,25 @@ void split_by_colour(Simulation<Dim>& sim) {
   if (all.grains == 0) return;
   // Two grains share a node when their cells are less than a stencil apart. What a grain adds to
   // a node does not depend on its colour, so colours may change from step to step.
-  const int reach = sim.grid->shape().stencil - 1;
-  const std::vector<GrainPair> near = near_grains(grain_cells(sim), reach, *sim.grid);
+  SlabGrid& grid = *sim.grid;
+  const int reach = grid.shape().stencil - 1;
+  const std::vector<CellRun> runs = cell_runs(grain_cells(sim), reach, grid);
   try {
-    all.colours = colour_grains(all.grains, near);
+    all.colours = colour_grains(all.grains, near_grains(runs, reach, grid));
   } catch (const StateError& crowd) {
     throw_crowded(crowd, sim);
   }
-  make_fields(1 + *std::max_element(all.colours.begin(), all.colours.end()), sim);
-  if (all.fields.empty()) return;
-  split(
-      sim.cells,
-      [&](std::uint32_t p) {
-        return all.colours[static_cast<std::size_t>(sim.particles.grain[p])];
-      },
-      all);
+  const int fields = 1 + *std::max_element(all.colours.begin(), all.colours.end());
+  sim.cells.field = all.colours;
+  if (fields == 1) {
+    release_fields(all);
+    if (grid.fields() > 1) grid.take_fields(1);
+    return;
+  }
+  grid.take_fields(fields, [&](NodeLayout& layout) {
+    mark_colours(runs, all.colours, sim.cells.awake, grid, layout);
+  });
+  if (!all.surfaces) all.surfaces = grid.sibling();
 }
 
 template <int Dim>
@@ -213,19 +159,19 @@ template <int Dim>
 void collide(double dt, Simulation<Dim>& sim) {
   GrainFields& all = sim.grain_fields;
   all.summary = {};
-  if (all.fields.empty()) return;
-  const Surfaces<Dim> surfaces = find_surfaces(sim);
+  if (sim.grid->fields() == 1) return;
+  const NodePoints<Dim> points = find_surfaces(sim);
   all.summary =
-      collide_grains<Dim>(surfaces.fields, all.shared, sim.scene, contact_settings(dt, sim),
-                          *all.faces, surfaces.points, sim.ledger.nodes);
+      collide_grains<Dim>({*sim.grid, *all.surfaces}, all.shared, sim.scene,
+                          contact_settings(dt, sim), *all.faces, points, sim.ledger.nodes);
 }
 
 template <int Dim>
 void finish_contact(Simulation<Dim>& sim) {
   const GrainFields& all = sim.grain_fields;
-  if (all.fields.empty()) return;
-  const std::vector<ContactField> fields = contact_fields(all);
-  settle_contact_heat<Dim>(fields, all.shared, sim.scene.boundary, sim.ledger.nodes);
+  if (sim.grid->fields() == 1) return;
+  settle_contact_heat<Dim>({*sim.grid, *all.surfaces}, all.shared, sim.scene.boundary,
+                           sim.ledger.nodes);
 }
 
 template <int Dim>

@@ -71,15 +71,10 @@ std::vector<double> row_seconds(const Simulation<Dim>& sim) {
   sum(particles, sim.communicator);
   std::vector<std::int64_t> contact_nodes;
   // The nodes of the last step, on the slabs of the last step.
-  if (!sim.grain_fields.fields.empty()) {
+  if (has_contact(sim)) {
     contact_nodes.assign(particles.size(), 0);
-    const std::vector<bool>& shared = sim.grain_fields.shared;
-    const auto width = static_cast<std::size_t>(shape.row_size);
-    for (std::size_t node = 0; node < shared.size(); ++node) {
-      const std::size_t row = static_cast<std::size_t>(sim.grid->first_row()) + node / width;
-      if (row < static_cast<std::size_t>(sim.grid->last_row()) && shared[node]) {
-        ++contact_nodes[row];
-      }
+    for (const NodePlace& node : sim.grain_fields.shared) {
+      if (node.row < sim.grid->last_row()) ++contact_nodes[static_cast<std::size_t>(node.row)];
     }
     sum(contact_nodes, sim.communicator);
   }
@@ -119,6 +114,16 @@ void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
       "MPI_Allreduce of the seconds of a cut");
 }
 
+/// With self-contact a particle belongs to the quarter that it faces.
+template <int Dim>
+void find_parts(const Particles<Dim>& particles, std::vector<std::int32_t>& part) {
+  if (!particles.options.facing) return;
+  part.resize(particles.size());
+  for (std::size_t p = 0; p < part.size(); ++p) {
+    part[p] = facing_quarter(particles.facing[0][p], particles.facing[1][p]);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -137,10 +142,13 @@ void sort_particles(std::int64_t step, const SlabGrid& grid, Particles<Dim>& par
     }
     cells.cell[p] = static_cast<std::uint32_t>(index);
   }
-  sort_by_cell(cells.cell, count, particles.grain, particles.id, cells);
+  find_parts(particles, cells.part);
+  sort_by_cell(cells.cell, count, cells.part.empty() ? particles.grain : cells.part, particles.id,
+               cells);
   if (step % storage_interval == 0) {
     reorder(cells.order, particles);
     std::iota(cells.order.begin(), cells.order.end(), 0U);
+    find_parts(particles, cells.part);
   }
 }
 

@@ -57,7 +57,7 @@ void conduct(double dt, Simulation<Dim>& sim) {
 template <int Dim>
 void close_step(StepReport report, Simulation<Dim>& sim) {
   const std::int64_t asleep = sleeping_particles(sim.cells, *sim.grid);
-  count_work(std::ssize(sim.particles.id), asleep, contact_nodes(sim.grain_fields), sim.work);
+  count_work(std::ssize(sim.particles.id), asleep, std::ssize(sim.grain_fields.shared), sim.work);
   // Those asleep are still in the state that the first limit comes from.
   if (asleep > 0) report.stress.dt_limit = std::min(report.stress.dt_limit, sim.clock.first_limit);
   take_report(report, sim.conduction_limit, sim.clock, sim.ledger);
@@ -81,37 +81,32 @@ void advance(Simulation<Dim>& sim, double dt) {
   // Now density, energy and position belong together and the sort holds; the stress update at the
   // end sees the heat in the energy that pressure follows from.
   if (sim.heat) in(PhaseName::conduction, [&] { conduct(dt, sim); });
-  const std::vector<FieldView> fields = velocity_fields(sim.cells, *sim.grid, sim.grain_fields);
-  for (const FieldView& field : fields) {
-    in(PhaseName::particles_to_grid,
-       [&] { particles_to_grid(particles, *field.cells, transfer, *field.grid); });
-    in(PhaseName::exchange, [&] { field.grid->exchange(); });
-  }
+  SlabGrid& grid = *sim.grid;
+  in(PhaseName::particles_to_grid,
+     [&] { particles_to_grid(particles, sim.cells, transfer, grid); });
+  in(PhaseName::exchange, [&] { grid.exchange(); });
   if (sim.ends) sum_ends(sim);
-  const auto momentum = [&](SlabGrid& grid) { integrate_momentum<Dim>(sim.body_force, dt, grid); };
-  const auto boundaries = [&](SlabGrid& grid) {
-    if (sim.ends && &grid == sim.grid.get()) push_ends<Dim>(*sim.ends, dt, grid, ledger);
+  const auto momentum = [&] { integrate_momentum<Dim>(sim.body_force, dt, grid); };
+  const auto boundaries = [&] {
+    if (sim.ends) push_ends<Dim>(*sim.ends, dt, grid, ledger);
     apply_boundaries<Dim>(scene.boundary, motion.grid_velocity, grid, ledger);
     add_body_work<Dim>(sim.body_force, dt, grid, ledger);
   };
-  move_nodes<Dim>(dt, fields, momentum, boundaries, sim);
+  move_nodes<Dim>(dt, momentum, boundaries, sim);
   StepReport report;
-  for (const FieldView& field : fields) {
-    in(PhaseName::grid_update, [&] { prepare_gather<Dim>(motion.lost, *field.grid); });
-    for_each_chunk(*field.cells, *field.grid, [&](RowRange rows, const auto& places) {
-      in(PhaseName::grid_to_particles, [&] {
-        grid_to_particles(*field.grid, *field.cells, rows, transfer, motion, particles,
-                          sim.step_data, report.transfer);
-      });
-      in(PhaseName::stress, [&] {
-        update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, particles,
-                           report.stress);
-        if (particles.options.facing)
-          turn_facing<Dim>(sim.step_data.gradient, dt, places, particles);
-      });
+  in(PhaseName::grid_update, [&] { prepare_gather<Dim>(motion.lost, grid); });
+  for_each_chunk(sim.cells, grid, [&](RowRange rows, const auto& places) {
+    in(PhaseName::grid_to_particles, [&] {
+      grid_to_particles(grid, sim.cells, rows, transfer, motion, particles, sim.step_data,
+                        report.transfer);
     });
-  }
-  move_sleeping(dt, sim.cells, *sim.grid, particles);
+    in(PhaseName::stress, [&] {
+      update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, particles,
+                         report.stress);
+      if (particles.options.facing) turn_facing<Dim>(sim.step_data.gradient, dt, places, particles);
+    });
+  });
+  move_sleeping(dt, sim.cells, grid, particles);
   close_step(report, sim);
 }
 

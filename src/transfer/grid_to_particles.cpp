@@ -219,18 +219,16 @@ double lost_share(const Transfer& transfer, double sound_speed, double cell, dou
 template <int Dim>
 void prepare_gather(double lost, SlabGrid& grid) {
   using Lane = MotionLane<Dim>;
-  for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    Lanes* nodes = grid.row(row);
-    for (int i = 0; i < grid.shape().row_size; ++i) {
-      double increment2 = 0.0, product = 0.0;
-      for (int a = 0; a < Dim; ++a) {
-        const double start = nodes[i][Lane::start_velocity + a];
-        const double end = nodes[i][Lane::end_velocity + a];
-        increment2 += (end - start) * (end - start);
-        product += start * end;
-      }
-      nodes[i][Lane::kinetic] = 0.5 * increment2 + lost * product;
+  const Lanes* const last = grid.nodes_from(grid.node_end());
+  for (Lanes* node = grid.nodes_from(grid.first_row()); node != last; ++node) {
+    double increment2 = 0.0, product = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      const double start = (*node)[Lane::start_velocity + a];
+      const double end = (*node)[Lane::end_velocity + a];
+      increment2 += (end - start) * (end - start);
+      product += start * end;
     }
+    (*node)[Lane::kinetic] = 0.5 * increment2 + lost * product;
   }
   grid.fill_periodic_images();
 }

@@ -9,9 +9,10 @@ namespace poreshock {
 
 namespace {
 
-/// Calls visit(number of the node, its indices) for every chosen node that a point reaches.
+/// Calls visit(number of the node, its indices) for every chosen node that a point reaches;
+/// `numbers`: of all nodes of the slab, row after row, -1 for those that are not chosen.
 template <int Dim, class Visit>
-void for_each_node(const CellPoint<Dim>& point, const std::vector<bool>& chosen,
+void for_each_node(const CellPoint<Dim>& point, const std::vector<std::int32_t>& numbers,
                    const SlabGrid& grid, Visit&& visit) {
   const GridShape& shape = grid.shape();
   const std::array<int, Dim> base = cell_index<Dim>(shape, point.row, point.lateral);
@@ -22,13 +23,14 @@ void for_each_node(const CellPoint<Dim>& point, const std::vector<bool>& chosen,
     const std::size_t at = static_cast<std::size_t>(row - grid.first_row()) * shape.row_size;
     for (int j = 0; j < planes; ++j) {
       for (int l = 0; l < w; ++l) {
-        const std::size_t node = at + original_node(shape, point.lateral + j * shape.nodes[0] + l);
-        if (!chosen[node]) continue;
+        const std::int32_t number =
+            numbers[at + original_node(shape, point.lateral + j * shape.nodes[0] + l)];
+        if (number < 0) continue;
         std::array<int, Dim> index;
         index[0] = base[0] + l;
         if constexpr (Dim == 3) index[1] = base[1] + j;
         index[Dim - 1] = row;
-        visit(node, index);
+        visit(static_cast<std::size_t>(number), index);
       }
     }
   }
@@ -47,20 +49,56 @@ int original_node(const GridShape& shape, int i) {
   return original(i / shape.nodes[0], shape.nodes[1], shape.periodic[1]) * shape.nodes[0] + x;
 }
 
+ChosenCells cells_at(const std::vector<NodePlace>& nodes, const SlabGrid& grid) {
+  const GridShape& shape = grid.shape();
+  const std::ptrdiff_t width = shape.row_size, rows = grid.last_row() - grid.first_row();
+  const int w = shape.stencil, planes = shape.dimension == 3 ? w : 1;
+  std::vector<int> original;
+  for (int i = 0; i < width; ++i) original.push_back(original_node(shape, i));
+  ChosenCells cells(static_cast<std::size_t>(rows * width), 0);
+  // One row of nodes, and its cells; behind its end come those that a stencil there would reach.
+  ChosenCells line(static_cast<std::size_t>(width + planes * shape.nodes[0] + w), 0);
+  ChosenCells across(static_cast<std::size_t>(width + planes * shape.nodes[0]), 0);
+  ChosenCells marks(static_cast<std::size_t>(width), 0);
+  for (std::size_t first = 0, last = 0; first < nodes.size(); first = last) {
+    const int row = nodes[first].row;
+    std::ranges::fill(marks, 0);
+    for (; last < nodes.size() && nodes[last].row == row; ++last) {
+      marks[static_cast<std::size_t>(nodes[last].lateral)] = 1;
+    }
+    for (std::ptrdiff_t i = 0; i < width; ++i) line[i] = marks[original[i]];
+    for (std::ptrdiff_t i = 0; i < std::ssize(across); ++i) {
+      across[i] = line[i];
+      for (int l = 1; l < w; ++l) across[i] |= line[i + l];
+    }
+    for (int k = 0; k < w; ++k) {
+      const std::ptrdiff_t cell_row = row - k - grid.first_row();
+      if (cell_row < 0 || cell_row >= rows) continue;
+      for (int j = 0; j < planes; ++j) {
+        const std::uint8_t* const from = across.data() + std::ptrdiff_t{j} * shape.nodes[0];
+        std::uint8_t* const to = cells.data() + cell_row * width;
+        for (std::ptrdiff_t i = 0; i < width; ++i) to[i] |= from[i];
+      }
+    }
+  }
+  return cells;
+}
+
 template <int Dim>
 std::vector<CellPoint<Dim>> collect_points(const Particles<Dim>& particles, const CellOrder& cells,
-                                           const std::vector<std::int8_t>& fields,
-                                           const SlabGrid& grid) {
+                                           const ChosenCells& chosen, const SlabGrid& grid) {
   std::vector<CellPoint<Dim>> points;
   const double inverse_cell = 1.0 / grid.shape().cell;
   for_each_run(
       particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
+        if (!is_chosen(chosen, row, lateral, grid)) return;
+        const int field = field_of(particles, cells, *first, grid);
         for (; first != last; ++first) {
           const std::uint32_t p = *first;
           CellPoint<Dim> point;
           point.row = row, point.lateral = lateral;
-          point.field = fields[static_cast<std::size_t>(particles.grain[p])];
+          point.field = field;
           point.volume = particles.mass[p] / particles.density[p];
           for (int a = 0; a < Dim; ++a) {
             point.volume *= inverse_cell;
@@ -91,18 +129,24 @@ void exchange_points(const SlabGrid& grid, std::vector<CellPoint<Dim>>& points) 
 
 template <int Dim>
 NodePoints<Dim> points_at_nodes(const std::vector<CellPoint<Dim>>& points,
-                                const std::vector<bool>& chosen, const SlabGrid& grid) {
+                                const std::vector<NodePlace>& nodes, const SlabGrid& grid) {
+  const std::size_t width = static_cast<std::size_t>(grid.shape().row_size);
+  std::vector<std::int32_t> numbers((grid.node_end() - grid.first_row()) * width, -1);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    numbers[(nodes[n].row - grid.first_row()) * width + nodes[n].lateral] =
+        static_cast<std::int32_t>(n);
+  }
   NodePoints<Dim> result;
-  result.start.assign(chosen.size() + 1, 0);
+  result.start.assign(nodes.size() + 1, 0);
   for (const CellPoint<Dim>& point : points) {
-    for_each_node<Dim>(point, chosen, grid,
+    for_each_node<Dim>(point, numbers, grid,
                        [&](std::size_t node, const auto&) { ++result.start[node + 1]; });
   }
   for (std::size_t n = 1; n < result.start.size(); ++n) result.start[n] += result.start[n - 1];
   std::vector<std::uint32_t> next(result.start.begin(), result.start.end() - 1);
   result.points.resize(result.start.back());
   for (const CellPoint<Dim>& point : points) {
-    for_each_node<Dim>(point, chosen, grid,
+    for_each_node<Dim>(point, numbers, grid,
                        [&](std::size_t node, const std::array<int, Dim>& index) {
                          NodePoint<Dim>& seen = result.points[next[node]++];
                          seen.volume = point.volume;
@@ -117,16 +161,14 @@ NodePoints<Dim> points_at_nodes(const std::vector<CellPoint<Dim>>& points,
 }
 
 template std::vector<CellPoint<2>> collect_points<2>(const Particles<2>&, const CellOrder&,
-                                                     const std::vector<std::int8_t>&,
-                                                     const SlabGrid&);
+                                                     const ChosenCells&, const SlabGrid&);
 template std::vector<CellPoint<3>> collect_points<3>(const Particles<3>&, const CellOrder&,
-                                                     const std::vector<std::int8_t>&,
-                                                     const SlabGrid&);
+                                                     const ChosenCells&, const SlabGrid&);
 template void exchange_points<2>(const SlabGrid&, std::vector<CellPoint<2>>&);
 template void exchange_points<3>(const SlabGrid&, std::vector<CellPoint<3>>&);
 template NodePoints<2> points_at_nodes<2>(const std::vector<CellPoint<2>>&,
-                                          const std::vector<bool>&, const SlabGrid&);
+                                          const std::vector<NodePlace>&, const SlabGrid&);
 template NodePoints<3> points_at_nodes<3>(const std::vector<CellPoint<3>>&,
-                                          const std::vector<bool>&, const SlabGrid&);
+                                          const std::vector<NodePlace>&, const SlabGrid&);
 
 }  // namespace poreshock

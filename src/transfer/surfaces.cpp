@@ -43,7 +43,7 @@ inline void add_surface(const Particles<Dim>& particles, std::uint32_t p, double
 
 template <int Dim, int Count, class Spline>
 void scatter_lanes(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                   SlabGrid& surfaces) {
+                   const ChosenCells& chosen, SlabGrid& surfaces) {
   const double cell = surfaces.shape().cell;
   scatter_blocks<Dim, Count>(
       spline, particles, cells,
@@ -51,27 +51,27 @@ void scatter_lanes(const Spline& spline, const Particles<Dim>& particles, const 
         const double volume = unscaled<Dim, Spline>(particles.mass[p] / particles.density[p]);
         add_surface<Dim, Count, Spline>(particles, p, volume, cell, w, sums);
       },
-      surfaces);
+      surfaces, [&](int row, int lateral) { return is_chosen(chosen, row, lateral, surfaces); });
 }
 
 }  // namespace
 
 template <int Dim>
 void scatter_surfaces(const Particles<Dim>& particles, const CellOrder& cells,
-                      const Transfer& transfer, SlabGrid& surfaces) {
+                      const ChosenCells& chosen, const Transfer& transfer, SlabGrid& surfaces) {
   with_shape(transfer, [&](const auto& spline) {
     if (Dim == 2 && particles.options.facing) {
       constexpr int all = Dim == 2 ? SurfaceLane<2>::facing + 2 : plain_lanes<Dim>;
-      scatter_lanes<Dim, all>(spline, particles, cells, surfaces);
+      scatter_lanes<Dim, all>(spline, particles, cells, chosen, surfaces);
     } else {
-      scatter_lanes<Dim, plain_lanes<Dim>>(spline, particles, cells, surfaces);
+      scatter_lanes<Dim, plain_lanes<Dim>>(spline, particles, cells, chosen, surfaces);
     }
   });
 }
 
-template void scatter_surfaces<2>(const Particles<2>&, const CellOrder&, const Transfer&,
-                                  SlabGrid&);
-template void scatter_surfaces<3>(const Particles<3>&, const CellOrder&, const Transfer&,
-                                  SlabGrid&);
+template void scatter_surfaces<2>(const Particles<2>&, const CellOrder&, const ChosenCells&,
+                                  const Transfer&, SlabGrid&);
+template void scatter_surfaces<3>(const Particles<3>&, const CellOrder&, const ChosenCells&,
+                                  const Transfer&, SlabGrid&);
 
 }  // namespace poreshock

@@ -74,7 +74,7 @@ TEST(NearGrains, AreFoundAcrossSlabsAndPeriodicSides) {
         for (const GrainCell& c : cells) {
           if (c.row >= grid.first_row() && c.row < grid.last_row()) mine.push_back(c);
         }
-        const std::vector<GrainPair> found = near_grains(mine, reach, grid);
+        const std::vector<GrainPair> found = near_grains(cell_runs(mine, reach, grid), reach, grid);
         EXPECT_EQ(found, all_pairs(cells, reach, shape)) << dimension << periodic << reach;
         EXPECT_GT(found.size(), 3U);
       }

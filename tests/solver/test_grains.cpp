@@ -114,7 +114,7 @@ TEST(Grains, StickAsOneField) {
   ASSERT_EQ(two.grain_fields.grains, 2);
   advance_to(120, 0, one);
   advance_to(120, 0, two);
-  ASSERT_EQ(two.grain_fields.fields.size(), 2U);
+  ASSERT_EQ(two.grid->fields(), 2);
   EXPECT_GT(expect_one_field(one, two), 5e9);
 }
 
@@ -124,9 +124,9 @@ TEST(Grains, OfOneNumberHoldNoMemory) {
   advance_to(20, 7, sim);
   const GrainFields& all = sim.grain_fields;
   EXPECT_FALSE(all.faces.has_value());
-  EXPECT_EQ(all.colours.capacity() + all.fields.capacity() + all.grids.capacity() +
-                all.shared.capacity() + all.sides.capacity(),
-            0U);
+  EXPECT_EQ(all.surfaces, nullptr);
+  EXPECT_EQ(all.colours.capacity() + all.shared.capacity() + all.sides.capacity(), 0U);
+  EXPECT_EQ(sim.cells.part.capacity() + sim.cells.field.capacity(), 0U);
   for (const auto& column : sim.particles.facing) EXPECT_EQ(column.capacity(), 0U);
 }
 
@@ -136,8 +136,8 @@ TEST(Grains, FarApartAreOneFieldBitForBit) {
   Simulation<2> two = start<2>(scene_of(stacked_text(1, 80.0)), MPI_COMM_SELF);
   advance_to(60, 0, one);
   advance_to(60, 0, two);
-  EXPECT_TRUE(two.grain_fields.fields.empty());
-  EXPECT_TRUE(two.grain_fields.grids.empty());
+  EXPECT_EQ(two.grid->fields(), 1);
+  EXPECT_EQ(two.grain_fields.surfaces, nullptr);
   for_each_column(one.particles, [&](std::string_view name, int component, const auto& column) {
     if (name == "grain") return;
     for_each_column(two.particles, [&](std::string_view other, int k, const auto& twin) {

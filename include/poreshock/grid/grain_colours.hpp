@@ -25,16 +25,24 @@ struct GrainCell {
   auto operator<=>(const GrainCell&) const = default;
 };
 
+/// Neighbouring stencil cells along x that hold particles of a grain.
+struct CellRun {
+  std::int32_t row, y, first, last, grain;
+};
+
+/// Runs of the cells of this rank, line after line, and of those of other ranks within `reach` rows
+/// of its slab. `cells`: those of this rank, ascending. Each rank sends what lies within `reach`
+/// rows of its slab's ends to all. Collective.
+std::vector<CellRun> cell_runs(std::span<const GrainCell> cells, int reach, const SlabGrid& grid);
+
 /// Two grains, the smaller number first.
 using GrainPair = std::pair<std::int32_t, std::int32_t>;
 
 /// Pairs of different grains with stencil cells at most `reach` apart along every axis, periodic
-/// sides respected; ascending, each once, the same on every rank. `cells`: those of this rank,
-/// ascending. Work grows with the cells, and with the lines of cells that cross a grain times
-/// reach^(Dim-1); each rank sends what lies within `reach` rows of its slab's ends to all.
+/// sides respected; ascending, each once, the same on every rank. `runs`: all of cell_runs with the
+/// same reach. Work grows with the lines of cells that cross a grain times reach^(Dim-1).
 /// Collective.
-std::vector<GrainPair> near_grains(std::span<const GrainCell> cells, int reach,
-                                   const SlabGrid& grid);
+std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const SlabGrid& grid);
 
 /// A colour for each grain 0 ... grains - 1, 0 for those without a neighbour: smallest degree last,
 /// then each takes the lowest colour that no neighbour has. A planar map of grains needs at most

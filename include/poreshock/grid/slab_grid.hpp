@@ -1,21 +1,21 @@
 #pragma once
-// The background grid of one rank: a slab of node rows of a PETSc DMDA, and the seam over which
-// neighbouring slabs complete their nodal sums.
+// The background grid of one rank: a slab of node rows, and the seam over which neighbouring slabs
+// complete their nodal sums.
 //
 // Node index i = 0 ... cells + 2 along every axis lies at (i - 1) * cell: one node of padding below
 // the domain and one above. Lateral axes are flattened into one row of `row_size` nodes. A particle
 // belongs to its stencil cell, named by the lowest node of its stencil; a row of stencil cells has
 // the index of its lowest node row, and each row belongs to exactly one rank.
 
-#include <petscdmda.h>
-
 #include <array>
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "poreshock/core/lanes.hpp"
 #include "poreshock/core/tensor.hpp"
+#include "poreshock/grid/node_layout.hpp"
 #include "poreshock/grid/partition.hpp"
+#include "poreshock/grid/seam.hpp"
 #include "poreshock/scene/scene.hpp"
 
 namespace poreshock {
@@ -49,14 +49,17 @@ Vector<Dim> grid_velocity(const GridShape& shape) {
 /// Least rows per slab for this stencil (seam depth, and mirror nodes at the walls).
 SlabLimits slab_limits(const GridShape& shape);
 
-/// Node arrays of one slab. A class because it owns PETSc objects.
+/// Nodes of one slab, in one velocity field or several. A class because it owns PETSc objects.
 class SlabGrid {
  public:
-  /// starts: parts + 1 row starts, see partition_rows. Collective.
+  /// One field with all nodes. starts: parts + 1 row starts, see partition_rows. Collective.
   SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm communicator);
-  ~SlabGrid();
   SlabGrid(const SlabGrid&) = delete;
   SlabGrid& operator=(const SlabGrid&) = delete;
+
+  /// A grid with the nodes of this one, now and later. They share the seam: one may only be filled
+  /// when the other has been exchanged. Not collective.
+  std::unique_ptr<SlabGrid> sibling() const;
 
   const GridShape& shape() const { return shape_; }
   MPI_Comm communicator() const { return communicator_; }
@@ -70,20 +73,52 @@ class SlabGrid {
   /// Rank that owns a row.
   int owner(int row) const;
 
-  /// Nodes of one row, row_size entries; row in [first_row, node_end).
-  Lanes* row(int row) {
-    return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size;
+  /// Velocity fields, and the nodes that each has.
+  int fields() const { return layout_->fields; }
+  const NodeLayout& layout() const { return *layout_; }
+
+  /// Gives every field all nodes. Afterwards the grid awaits clear(). Collective.
+  void take_fields(int fields);
+
+  /// Gives the fields the nodes that mark(layout) marks, the same on all ranks that hold them, and
+  /// those that they stand for across periodic sides. Afterwards the grid awaits clear().
+  /// Collective.
+  template <class Mark>
+  void take_fields(int fields, Mark&& mark) {
+    begin_layout(fields, *layout_);
+    mark(*layout_);
+    finish_fields();
   }
-  const Lanes* row(int row) const {
-    return nodes_ + static_cast<std::ptrdiff_t>(row - first_) * shape_.row_size;
+
+  /// Nodes of one row, row_size entries, of a field that has all; row in [first_row, node_end).
+  Lanes* row(int row, int field = 0) { return line(field, row, 0); }
+  const Lanes* row(int row, int field = 0) const { return line(field, row, 0); }
+
+  /// A node that the field has; its neighbours in the row follow as far as the field has them.
+  Lanes* line(int field, int row, int lateral) {
+    return nodes_.data() + shift_at(*layout_, field, row, lateral) + lateral;
   }
+  const Lanes* line(int field, int row, int lateral) const {
+    return nodes_.data() + shift_at(*layout_, field, row, lateral) + lateral;
+  }
+
+  /// A node, null where the field does not have it.
+  Lanes* find(int field, int row, int lateral) {
+    const std::int32_t shift = shift_at(*layout_, field, row, lateral);
+    return shift == no_tile ? nullptr : nodes_.data() + shift + lateral;
+  }
+
+  /// The nodes of all fields in the rows from this one on, row after row, as they are stored.
+  Lanes* nodes_from(int row) { return nodes_.data() + first_place(*layout_, row); }
+  const Lanes* nodes_from(int row) const { return nodes_.data() + first_place(*layout_, row); }
 
   /// Sets all nodal sums and the seam to +0. Not collective.
   void clear();
 
-  /// Adds the sums of the particles of one row to its `stencil` node rows, or keeps them apart in
-  /// the seam where another rank shares the nodes. Call once per row, in row order. Not collective.
-  void add_row(int row, const Lanes* buffer);
+  /// Adds the sums of the particles of one row and field to its `stencil` node rows, or keeps them
+  /// apart in the seam where another rank shares the nodes. Call at most once per row and field, in
+  /// row order. Not collective.
+  void add_row(int row, const Lanes* buffer, int field = 0);
 
   /// Completes the nodal sums: one exchange of the seam, sums in row order, periodic sides folded.
   /// Before: add_row for every row with particles. After: nodes in [first_row, node_end) hold the
@@ -93,15 +128,17 @@ class SlabGrid {
   /// Copies nodes onto their periodic images in all rows. Not collective.
   void fill_periodic_images();
 
-  /// The DMDA of the nodes, dof 8, for output.
-  DM nodes_dm() const { return node_dm_; }
   /// Bytes held on this rank.
   std::size_t bytes() const;
 
  private:
+  SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm communicator,
+           std::shared_ptr<NodeLayout> layout, std::shared_ptr<Seam> seam);
+  void finish_fields();
   int down_plane(int row_offset, int node_offset) const;
   int up_plane(int row_offset, int node_offset) const;
-  void assemble_seam_row(int node_row, const Lanes* below, const Lanes* above, int offset);
+  void assemble_seam_row(int field, int node_row, const Lanes* below, const Lanes* above,
+                         int offset);
   void fold_periodic();
 
   GridShape shape_;
@@ -110,12 +147,9 @@ class SlabGrid {
   int first_ = 0, last_ = 0, node_end_ = 0;
   bool has_below_ = false, has_above_ = false;
   int planes_ = 0;  ///< seam planes per direction
-  DM node_dm_ = nullptr, seam_dm_ = nullptr;
-  Vec node_vector_ = nullptr, seam_vector_ = nullptr;
-  Lanes* nodes_ = nullptr;  ///< node row first_
-  Lanes* seam_ = nullptr;   ///< first plane owned by this rank
-  double* node_array_ = nullptr;
-  double* seam_array_ = nullptr;
+  std::shared_ptr<NodeLayout> layout_;
+  std::shared_ptr<Seam> seam_;  ///< none on a single rank
+  std::vector<Lanes> nodes_;
 };
 
 }  // namespace poreshock

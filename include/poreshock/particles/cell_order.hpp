@@ -1,5 +1,6 @@
 #pragma once
-// The canonical order of particles: by (cell, grain, id). Kernels walk particles in this order, so
+// The canonical order of particles: by (cell, part, id). Parts are grains, or what else has
+// velocity fields of its own. Kernels walk particles in this order, so
 // their sums do not depend on where or how particles are stored.
 
 #include <cstdint>
@@ -18,14 +19,17 @@ struct CellOrder {
   std::vector<std::uint32_t> start;  ///< cells + 1 entries
   std::vector<std::uint32_t> order;  ///< indices into the particle columns
   std::vector<std::uint32_t> cell;   ///< of each particle as stored, when they were sorted
+  /// Part that a particle as stored belongs to; empty where grains are the parts.
+  std::vector<std::int32_t> part;
+  std::vector<std::int8_t> field;  ///< velocity field of each part; empty where there is only one
   /// Rows that a step works on, of the whole grid; the particles of all others only move.
   RowRange awake = {0, std::numeric_limits<int>::max()};
 };
 
-/// Sorts particles by (cell, grain, id). Counting sort, then insertion within a cell; cheap when
+/// Sorts particles by (cell, part, id). Counting sort, then insertion within a cell; cheap when
 /// the storage is nearly sorted. Not collective.
 void sort_by_cell(const std::vector<std::uint32_t>& cell, std::size_t cells,
-                  const std::vector<std::int32_t>& grain, const std::vector<std::int64_t>& id,
+                  const std::vector<std::int32_t>& part, const std::vector<std::int64_t>& id,
                   CellOrder& result);
 
 }  // namespace poreshock

@@ -12,10 +12,10 @@
 
 namespace poreshock {
 
-/// The nodes of one velocity field: MotionLane, and SurfaceLane where there is contact.
-struct ContactField {
-  SlabGrid* motion = nullptr;
-  SlabGrid* surface = nullptr;
+/// Two grids of the same nodes: MotionLane, and SurfaceLane where there is contact.
+struct ContactGrids {
+  SlabGrid& motion;
+  SlabGrid& surfaces;
 };
 
 /// What contact did in one step, over the owned nodes of this rank.
@@ -31,9 +31,9 @@ struct ContactSummary {
 /// index of the node in its row. Pure function.
 double node_capacity(const GridShape& shape, const Transfer& transfer, int row, int lateral);
 
-/// True at the nodes in [first_row, node_end) where two fields or more have mass; row after row.
-/// Not collective.
-std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass_lane);
+/// The nodes in [first_row, node_end) where two fields or more have mass; row after row. Not
+/// collective.
+std::vector<NodePlace> shared_nodes(const SlabGrid& motion, int mass_lane);
 
 /// Lets the grains of all shared nodes collide: velocities and the heat lane change, and
 /// SurfaceLane gives way to CollisionLane there. Before: motion and surfaces complete, periodic
@@ -43,15 +43,15 @@ std::vector<bool> shared_nodes(const std::vector<ContactField>& fields, int mass
 /// normals from the planes that part them; without any they come from the gradients. Not
 /// collective.
 template <int Dim>
-ContactSummary collide_grains(const std::vector<ContactField>& fields,
-                              const std::vector<bool>& shared, const Scene& scene,
-                              const ContactSettings& settings, const FaceTable& faces,
-                              const NodePoints<Dim>& points, NodeLedger& ledger);
+ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodePlace>& shared,
+                              const Scene& scene, const ContactSettings& settings,
+                              const FaceTable& faces, const NodePoints<Dim>& points,
+                              NodeLedger& ledger);
 
 /// After the boundaries: where they changed the velocities once more, contact impulses did other
 /// work than collide_grains knew; the difference goes to the heat. Not collective.
 template <int Dim>
-void settle_contact_heat(const std::vector<ContactField>& fields, const std::vector<bool>& shared,
+void settle_contact_heat(const ContactGrids& grids, const std::vector<NodePlace>& shared,
                          const Boundary& boundary, NodeLedger& ledger);
 
 }  // namespace poreshock

@@ -3,7 +3,7 @@
 // parted into two sides, and these collide like two grains (field-gradient partitioning: Homel &
 // Herbold, Int. J. Numer. Meth. Eng. 109 (2017) 1013).
 //
-// Particles come sorted by the quarter of the plane they face, one velocity field each. A node
+// Particles come sorted by the quarter of the plane they face, a velocity field each. A node
 // gives every quarter to one of its two sides, by the sign of the product of the quarter's mean
 // direction and the node's own. Quarters of one side move as one field there.
 
@@ -38,14 +38,15 @@ using QuarterSums = std::array<Lanes, facing_quarters>;
 /// mean directions more than 120 degrees apart, each towards the place of the other. Pure function.
 NodeSides sides_of_node(const QuarterSums& quarters);
 
-/// Sides of all nodes in [first_row, node_end), row after row. Not collective.
-std::vector<NodeSides> find_sides(const std::vector<SlabGrid*>& surfaces);
+/// Sides of all nodes in [first_row, node_end), row after row. `surfaces`: a field per quarter,
+/// each with all nodes. Not collective.
+std::vector<NodeSides> find_sides(const SlabGrid& surfaces);
 
-/// At every node, the sums of the first side go to the first grid, those of the second to the
-/// second one; a side that is not there leaves zeros. Not collective.
-void join_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids);
+/// At every node, the sums of the first side go to the first field, those of the second to the
+/// second one; a side that is not there and the other fields get zeros. Not collective.
+void join_sides(const std::vector<NodeSides>& sides, SlabGrid& grid);
 
 /// The reverse: each quarter gets what its side has become. Not collective.
-void spread_sides(const std::vector<NodeSides>& sides, const std::vector<SlabGrid*>& grids);
+void spread_sides(const std::vector<NodeSides>& sides, SlabGrid& grid);
 
 }  // namespace poreshock

@@ -105,20 +105,25 @@ inline Lanes slope_in(const BlockWeights<Dim, Spline, Parts>& w, int a, int b) {
   }
 }
 
-/// Scatters in blocks: accumulate(p, weights, sums) adds one particle to sums[quantity][block].
-/// Sums of a run start at +0 and are added to the row buffer, that to the grid. Not collective.
+/// All cells of a sweep.
+inline constexpr auto every_cell = [](int, int) { return true; };
+
+/// Scatters in blocks: accumulate(p, weights, sums) adds one particle to sums[quantity][block], for
+/// cells with takes(row, lateral). Sums of a run start at +0 and are added to the row buffer of its
+/// velocity field, that to the grid. Not collective.
 template <int Dim, int Quantities, WeightParts Parts = WeightParts::all, class Spline,
-          class Accumulate>
+          class Accumulate, class Takes = decltype(every_cell)>
 void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
-                    Accumulate&& accumulate, SlabGrid& grid) {
+                    Accumulate&& accumulate, SlabGrid& grid, const Takes& takes = every_cell) {
   constexpr int blocks = stencil_blocks<Dim, Spline>;
   const GridShape& shape = grid.shape();
   const double inverse_cell = 1.0 / shape.cell;
-  PlanarBuffer<Dim, Spline, Quantities> buffer(shape);
+  PlanarBuffer<Dim, Spline, Quantities> buffer(shape, grid.fields());
   grid.clear();
   for_each_run(
       particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
+        if (!takes(row, lateral)) return;
         const auto base = cell_index<Dim>(shape, row, lateral);
         alignas(64) Lanes sums[Quantities][blocks] = {};
         for_each_weighted(
@@ -127,8 +132,10 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
               return block_weights<Dim, Parts>(spline, particles, p, base, inverse_cell);
             },
             [&](std::uint32_t p, const auto& w) { accumulate(p, w, sums); });
+        const std::ptrdiff_t at =
+            buffer.start_of(field_of(particles, cells, *first, grid)) + lateral;
         for (int q = 0; q < Quantities; ++q) {
-          for (int b = 0; b < blocks; ++b) buffer.rows.add(sums[q][b], q, b, lateral);
+          for (int b = 0; b < blocks; ++b) buffer.rows.add(sums[q][b], q, b, at);
         }
       },
       [&](int row) { buffer.flush(row, grid); });

@@ -19,8 +19,8 @@ struct NodePoint {
   std::int32_t field = 0;                    ///< its velocity field
 };
 
-/// Particles of the chosen nodes of a slab: those of node number n (its row from first_row times
-/// row_size and its index) are points[start[n]] ... points[start[n + 1]].
+/// Particles of chosen nodes of a slab: those of node number n are points[start[n]] ...
+/// points[start[n + 1]].
 template <int Dim>
 struct NodePoints {
   std::vector<std::uint32_t> start;
@@ -46,12 +46,24 @@ struct CellPoint {
 /// Node of a row that stands for node i across periodic sides. Pure function.
 int original_node(const GridShape& shape, int i);
 
-/// The particles in `cells`, in canonical order; `fields`: the velocity field of each grain. Not
-/// collective.
+/// Cells of a slab, row after row: not 0 for those that are chosen.
+using ChosenCells = std::vector<std::uint8_t>;
+
+/// Whether the particles of a cell are taken; all are where nothing was chosen.
+inline bool is_chosen(const ChosenCells& chosen, int row, int lateral, const SlabGrid& grid) {
+  if (chosen.empty()) return true;
+  const std::ptrdiff_t width = grid.shape().row_size;
+  return chosen[static_cast<std::size_t>((row - grid.first_row()) * width + lateral)] != 0;
+}
+
+/// The stencil cells of this slab that reach one of some nodes; those across periodic sides count
+/// as one. Not collective.
+ChosenCells cells_at(const std::vector<NodePlace>& nodes, const SlabGrid& grid);
+
+/// The particles in the chosen cells, in canonical order. Not collective.
 template <int Dim>
 std::vector<CellPoint<Dim>> collect_points(const Particles<Dim>& particles, const CellOrder& cells,
-                                           const std::vector<std::int8_t>& fields,
-                                           const SlabGrid& grid);
+                                           const ChosenCells& chosen, const SlabGrid& grid);
 
 /// Sends those in the rows next to the slabs of the neighbours to them and puts what they send in
 /// front and behind: what reaches nodes in [first_row, node_end) is then there, in canonical order.
@@ -59,9 +71,9 @@ std::vector<CellPoint<Dim>> collect_points(const Particles<Dim>& particles, cons
 template <int Dim>
 void exchange_points(const SlabGrid& grid, std::vector<CellPoint<Dim>>& points);
 
-/// The points that reach each of the chosen nodes in [first_row, node_end). Not collective.
+/// The points that reach each of some nodes in [first_row, node_end). Not collective.
 template <int Dim>
 NodePoints<Dim> points_at_nodes(const std::vector<CellPoint<Dim>>& points,
-                                const std::vector<bool>& chosen, const SlabGrid& grid);
+                                const std::vector<NodePlace>& nodes, const SlabGrid& grid);
 
 }  // namespace poreshock

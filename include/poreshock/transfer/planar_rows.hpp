@@ -41,7 +41,7 @@ struct PlanarRows {
     }
   }
 
-  void add(const Lanes& value, int q, int b, int lateral) const {
+  void add(const Lanes& value, int q, int b, std::ptrdiff_t lateral) const {
     const int j = 2 * (b % line_pairs<Spline>), k = b / line_pairs<Spline>;
     *reinterpret_cast<HalfLanes*>(line(q, j, k) + lateral) += low_half(value);
     if (j + 1 < width) {
@@ -55,14 +55,15 @@ inline std::ptrdiff_t planar_pitch(const GridShape& shape) {
   return (shape.row_size + 2 * lane_count - 1) / lane_count * lane_count;
 }
 
-/// Row buffer of planar sums; quantity q becomes lane q of the nodes.
+/// Row buffer of planar sums of several velocity fields; quantity q becomes lane q of the nodes.
 template <int Dim, class Spline, int Quantities>
 class PlanarBuffer {
  public:
-  explicit PlanarBuffer(const GridShape& shape)
+  PlanarBuffer(const GridShape& shape, int fields)
       : row_size_(shape.row_size),
         pitch_(planar_pitch(shape)),
-        values_(static_cast<std::size_t>(Spline::width * Quantities * pitch_), 0.0),
+        values_(static_cast<std::size_t>(fields * field_size()), 0.0),
+        used_(static_cast<std::size_t>(fields), 0),
         nodes_(static_cast<std::size_t>(Spline::width * row_size_ + lane_count)) {
     rows.line_size = shape.nodes[0];
     for (int q = 0; q < Quantities; ++q) {
@@ -74,29 +75,49 @@ class PlanarBuffer {
   PlanarBuffer(const PlanarBuffer&) = delete;
   PlanarBuffer& operator=(const PlanarBuffer&) = delete;
 
+  /// Where the lateral index 0 of a field lies in `rows`, which is about to be added to.
+  std::ptrdiff_t start_of(int field) {
+    used_[static_cast<std::size_t>(field)] = 1;
+    return field * field_size();
+  }
+
   /// Adds the sums to the grid as those of one row and clears them.
   void flush(int row, SlabGrid& grid) {
-    for (int k = 0; k < Spline::width; ++k) {
-      Lanes* target = nodes_.data() + k * row_size_;
-      // The last block may write beyond the row, where the next row comes afterwards.
-      for (std::ptrdiff_t i = 0; i < row_size_; i += lane_count) {
-        Lanes block[lane_count] = {};
-        for (int q = 0; q < Quantities; ++q) {
-          block[q] = *reinterpret_cast<const Lanes*>(rows.rows[q][k] + i);
-        }
-        transpose(block);
-        for (int n = 0; n < lane_count; ++n) target[i + n] = block[n];
+    for (int field = 0; field < static_cast<int>(used_.size()); ++field) {
+      if (used_[static_cast<std::size_t>(field)] == 0) continue;
+      used_[static_cast<std::size_t>(field)] = 0;
+      for (int k = 0; k < Spline::width; ++k) {
+        for (const NodeRun& run : runs_of(grid.layout(), field, row + k)) turn(run, field, k);
       }
+      grid.add_row(row, nodes_.data(), field);
     }
-    grid.add_row(row, nodes_.data());
-    std::fill(values_.begin(), values_.end(), 0.0);
   }
 
   PlanarRows<Dim, Spline, Quantities> rows;
 
  private:
+  std::ptrdiff_t field_size() const { return Spline::width * Quantities * pitch_; }
+
+  /// Takes node row k of a field along a run out of the sums, a node a line of lanes.
+  void turn(const NodeRun& run, int field, int k) {
+    Lanes* const target = nodes_.data() + k * row_size_;
+    // The last block may go beyond the run, by less nodes than the field lacks there: it takes
+    // nothing from other runs. It may write beyond the row, where the next row comes afterwards.
+    for (std::ptrdiff_t i = run.first; i < run.last; i += lane_count) {
+      Lanes block[lane_count] = {};
+      for (int q = 0; q < Quantities; ++q) {
+        Lanes& sums = *reinterpret_cast<Lanes*>(rows.rows[q][k] + field * field_size() + i);
+        block[q] = sums;
+        sums = Lanes{};
+      }
+      transpose(block);
+      for (int n = 0; n < lane_count; ++n) target[i + n] = block[n];
+    }
+  }
+
   std::ptrdiff_t row_size_, pitch_;
   std::vector<double> values_;
+  std::vector<std::int8_t> used_;
   std::vector<Lanes> nodes_;
 };
 

@@ -108,12 +108,27 @@ inline std::uint32_t first_place(const CellOrder& cells, const SlabGrid& grid, i
   return cells.start[static_cast<std::size_t>(row - grid.first_row()) * grid.shape().row_size];
 }
 
-/// Calls run(row, lateral, first, last) for every run of particles of one cell and one grain in the
+/// Part of each particle as stored.
+template <int Dim>
+const std::int32_t* parts_of(const Particles<Dim>& particles, const CellOrder& cells) {
+  return cells.part.empty() ? particles.grain.data() : cells.part.data();
+}
+
+/// Velocity field of a grid to which the particles of a run belong, p being one of them.
+template <int Dim>
+int field_of(const Particles<Dim>& particles, const CellOrder& cells, std::uint32_t p,
+             const SlabGrid& grid) {
+  if (grid.fields() == 1) return 0;
+  return cells.field[static_cast<std::size_t>(parts_of(particles, cells)[p])];
+}
+
+/// Calls run(row, lateral, first, last) for every run of particles of one cell and one part in the
 /// rows of a range, rows in order, and row_end(row) after each row that has particles.
 template <int Dim, class Run, class RowEnd>
 void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const SlabGrid& grid,
                   RowRange rows, Run&& run, RowEnd&& row_end) {
   const int width = grid.shape().row_size;
+  const std::int32_t* const part = parts_of(particles, cells);
   for (int row = rows.first; row < rows.last; ++row) {
     const std::size_t row_cell = static_cast<std::size_t>(row - grid.first_row()) * width;
     if (cells.start[row_cell] == cells.start[row_cell + width]) continue;
@@ -122,7 +137,7 @@ void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const
       const std::uint32_t* const end = cells.order.data() + cells.start[row_cell + lateral + 1];
       while (first != end) {
         const std::uint32_t* last = first + 1;
-        while (last != end && particles.grain[*last] == particles.grain[*first]) ++last;
+        while (last != end && part[*last] == part[*first]) ++last;
         run(row, lateral, first, last);
         first = last;
       }
@@ -187,10 +202,13 @@ void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellO
       particles, cells, grid, rows,
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         const auto base = cell_index<Dim>(shape, row, lateral);
-        const Lanes* source = grid.row(row) + lateral;
+        const int field = field_of(particles, cells, *first, grid);
         alignas(64) Lanes nodes[stencil_nodes<Dim, Spline>];
-        for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
-          nodes[n] = source[node_offset<Dim, Spline>(shape, n)];
+        for (int n = 0; n < stencil_nodes<Dim, Spline>; n += Spline::width) {
+          const int line = n / Spline::width, k = Dim == 2 ? line : line / Spline::width;
+          const int across = Dim == 2 ? 0 : line % Spline::width * shape.nodes[0];
+          const Lanes* source = grid.line(field, row + k, lateral + across);
+          for (int i = 0; i < Spline::width; ++i) nodes[n + i] = source[i];
         }
         for_each_weighted(
             first, last, [&](std::uint32_t p) { return weights(p, base); },
