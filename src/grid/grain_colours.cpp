@@ -55,9 +55,13 @@ class RunMap {
  public:
   RunMap(std::vector<CellRun> runs, const GridShape& shape)
       : runs_(std::move(runs)), lines_(shape.row_size / shape.nodes[0]) {
-    std::sort(runs_.begin(), runs_.end(), [](const CellRun& a, const CellRun& b) {
+    const auto before = [](const CellRun& a, const CellRun& b) {
       return std::tie(a.row, a.y, a.first, a.grain) < std::tie(b.row, b.y, b.first, b.grain);
-    });
+    };
+    // Those of one rank are in order.
+    if (!std::is_sorted(runs_.begin(), runs_.end(), before)) {
+      std::sort(runs_.begin(), runs_.end(), before);
+    }
     if (runs_.empty()) return;
     first_row_ = runs_.front().row;
     rows_ = runs_.back().row - first_row_ + 1;
@@ -147,13 +151,17 @@ std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const S
                  shape.dimension == 3 && shape.periodic[1], ys);
     for (int row = r.row; row <= r.row + reach; ++row) {
       for (const int y : ys) {
-        for (int turn = -1; turn <= 1; ++turn) {
-          if (turn != 0 && !shape.periodic[0]) continue;
-          map.for_each_in(row, y, r.first - reach + turn * around, r.last + reach + turn * around,
-                          [&](const CellRun& other) {
-                            if (other.grain != r.grain) join(r.grain, other.grain, near);
-                          });
-        }
+        const auto join_in = [&](int first, int last) {
+          if (last < 0 || first >= shape.nodes[0]) return;
+          map.for_each_in(row, y, first, last, [&](const CellRun& other) {
+            if (other.grain != r.grain) join(r.grain, other.grain, near);
+          });
+        };
+        const int first = r.first - reach, last = r.last + reach;
+        join_in(first, last);
+        if (!shape.periodic[0]) continue;
+        join_in(first - around, last - around);
+        join_in(first + around, last + around);
       }
     }
   }

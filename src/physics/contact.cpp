@@ -4,26 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "tied_space.hpp"
+#include "pair_pushes.hpp"
 
 namespace poreshock {
 
 namespace {
 
-constexpr int most_sweeps = 64;
-constexpr double converged = 1e-3;  // change of the impulses in a sweep, over their sum
-constexpr int most_pairs = most_grains_at_node * (most_grains_at_node - 1) / 2;
-
-/// Two grains of a node.
-template <int Dim>
-struct Pair {
-  int a, b;
-  Vector<Dim> normal;  ///< from a to b
-  double reduced;      ///< kg, m_a m_b / (m_a + m_b)
-  bool rubs;           ///< false where the normal is only a guess
-  double push;         ///< kg m/s along the normal, on b
-  Vector<Dim> rub;     ///< kg m/s across it, on b
-};
+template <std::size_t Count>
+constexpr std::size_t most_pairs = most_of<Count>*(most_of<Count> - 1) / 2;
 
 /// Common normal of two grains: of their volume gradients, else from place to place. `crowded`:
 /// there are more grains at the node. False when there is none.
@@ -57,69 +45,42 @@ bool set_normal(const NodeGrain<Dim>& a, const NodeGrain<Dim>& b, double cell, b
   return true;
 }
 
-/// Adds to velocities the least impulses that keep the pairs from closing: Gauss-Seidel over all
-/// pairs, back and forth, until they stand. A single pair is solved by its first step.
+/// The pairs that push each other, moved to the front of all.
 template <int Dim>
-void find_pushes(std::span<const NodeGrain<Dim>> grains, NodeVelocities<Dim>& velocity,
-                 std::span<Pair<Dim>> pairs) {
-  const std::size_t count = pairs.size();
-  for (Pair<Dim>& pair : pairs) pair.push = 0.0;
-  std::array<double, most_grains_at_node> inverse_mass;
-  for (std::size_t g = 0; g < grains.size(); ++g) inverse_mass[g] = 1.0 / grains[g].mass;
-  for (int sweep = 0; sweep < (count == 1 ? 1 : most_sweeps); ++sweep) {
-    double change = 0.0, sum = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-      Pair<Dim>& pair = pairs[sweep % 2 == 0 ? k : count - 1 - k];
-      const double opening = dot<Dim>(velocity[pair.b] - velocity[pair.a], pair.normal);
-      const double push = std::max(pair.push - pair.reduced * opening, 0.0);
-      const Vector<Dim> more = pair.normal * (push - pair.push);
-      velocity[pair.a] -= more * inverse_mass[pair.a];
-      velocity[pair.b] += more * inverse_mass[pair.b];
-      change += std::abs(push - pair.push);
-      sum += push;
-      pair.push = push;
-    }
-    if (!(change > converged * sum)) return;
-  }
-}
-
-/// The pairs that push each other with these velocities, moved to the front of all.
-template <int Dim>
-std::span<Pair<Dim>> pushing(std::span<const NodeGrain<Dim>> grains, std::span<Pair<Dim>> pairs,
-                             NodeVelocities<Dim>& velocity) {
-  find_pushes<Dim>(grains, velocity, pairs);
+std::span<Pair<Dim>> pushing(std::span<Pair<Dim>> pairs) {
   const auto parts = [](const Pair<Dim>& pair) { return !(pair.push > 0.0); };
   const auto last = std::remove_if(pairs.begin(), pairs.end(), parts);
   return pairs.first(static_cast<std::size_t>(last - pairs.begin()));
 }
 
 /// Start and end velocities of the grains of a node.
-template <int Dim>
+template <int Dim, std::size_t Count>
 struct Motion {
-  NodeVelocities<Dim> start, end;
+  NodeVelocities<Dim, Count> start, end;
 };
 
-template <int Dim>
-void project(const ContactSettings& settings, const TiedSpace<Dim>& space, Motion<Dim>& motion) {
+template <int Dim, std::size_t Count>
+void project(const ContactSettings& settings, const TiedSpace<Dim, Count>& space,
+             Motion<Dim, Count>& motion) {
   if (!settings.mirrored) space.project(motion.start);
   space.project(motion.end);
 }
 
 /// What of the relative velocity of a pair lies across its normal.
-template <int Dim>
-Vector<Dim> slip_of(const Pair<Dim>& pair, const NodeVelocities<Dim>& velocity) {
+template <int Dim, std::size_t Count>
+Vector<Dim> slip_of(const Pair<Dim>& pair, const NodeVelocities<Dim, Count>& velocity) {
   const Vector<Dim> relative = velocity[pair.b] - velocity[pair.a];
   return relative - pair.normal * dot<Dim>(relative, pair.normal);
 }
 
 /// Ties pairs that friction keeps from slipping; the others get its impulse, on b.
-template <int Dim>
-void find_rubs(const ContactSettings& settings, std::span<Pair<Dim>> pairs, Motion<Dim>& motion,
-               TiedSpace<Dim>& space) {
+template <int Dim, std::size_t Count>
+void find_rubs(const ContactSettings& settings, std::span<Pair<Dim>> pairs,
+               Motion<Dim, Count>& motion, TiedSpace<Dim, Count>& space) {
   for (Pair<Dim>& pair : pairs) {
     pair.rub.setZero();
     if (!pair.rubs) continue;
-    const Vector<Dim> slip = slip_of(pair, motion.end);
+    const Vector<Dim> slip = slip_of<Dim, Count>(pair, motion.end);
     const double speed = std::sqrt(dot<Dim>(slip, slip)), most = settings.friction * pair.push;
     if (pair.reduced * speed > most) {
       pair.rub = slip * (-most / speed);
@@ -127,15 +88,16 @@ void find_rubs(const ContactSettings& settings, std::span<Pair<Dim>> pairs, Moti
     }
     for (int axis = 0; axis < Dim; ++axis) space.tie(pair.a, pair.b, Vector<Dim>::Unit(axis));
   }
-  project<Dim>(settings, space, motion);
+  project<Dim, Count>(settings, space, motion);
 }
 
 /// Adds the impulses of friction to the end velocities, those of a crowded node so that no tie
 /// breaks, and so far that their heat, a parabola of their common size, is not negative.
-template <int Dim>
-void rub_pairs(std::span<NodeGrain<Dim>> grains, std::span<Pair<Dim>> pairs,
-               const TiedSpace<Dim>& space, Motion<Dim>& motion, ContactReport& report) {
-  NodeVelocities<Dim> change, middle;
+template <int Dim, std::size_t Count>
+void rub_pairs(std::span<NodeGrain<Dim>, Count> grains, std::span<Pair<Dim>> pairs,
+               const TiedSpace<Dim, Count>& space, Motion<Dim, Count>& motion,
+               ContactReport& report) {
+  NodeVelocities<Dim, Count> change, middle;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     change[g].setZero();
     middle[g] = (motion.start[g] + motion.end[g]) * 0.5;
@@ -162,8 +124,8 @@ void rub_pairs(std::span<NodeGrain<Dim>> grains, std::span<Pair<Dim>> pairs,
 
 /// Heat of impulses that act on start velocities which do not keep the ties, with that of friction
 /// alike per mass in all grains.
-template <int Dim>
-void book_impact(std::span<NodeGrain<Dim>> grains, const Motion<Dim>& motion,
+template <int Dim, std::size_t Count>
+void book_impact(std::span<NodeGrain<Dim>, Count> grains, const Motion<Dim, Count>& motion,
                  ContactReport& report) {
   double heat = 0.0, mass = 0.0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -177,10 +139,10 @@ void book_impact(std::span<NodeGrain<Dim>> grains, const Motion<Dim>& motion,
 }
 
 /// All pairs of a node that have a normal and touch. `normal`: of two grains, where known.
-template <int Dim>
-int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& settings,
+template <int Dim, std::size_t Count>
+int find_pairs(NodeGrains<Dim, Count> grains, const ContactSettings& settings,
                const FaceTable& faces, const Vector<Dim>* normal,
-               std::array<Pair<Dim>, most_pairs>& pairs, ContactReport& report) {
+               std::array<Pair<Dim>, most_pairs<Count>>& pairs, ContactReport& report) {
   const NodeFill<Dim> node = fill_of<Dim>(grains);
   // Over the space of a node inside the domain: beyond a wall only a sliver of it is left.
   double space = 1.0;
@@ -207,47 +169,103 @@ int find_pairs(std::span<const NodeGrain<Dim>> grains, const ContactSettings& se
   return count;
 }
 
-}  // namespace
+/// A node while its grains collide.
+template <int Dim, std::size_t Count>
+struct Collision {
+  std::array<Pair<Dim>, most_pairs<Count>> storage;
+  std::span<Pair<Dim>> pairs;
+  Motion<Dim, Count> motion;
+};
 
-template <int Dim>
-ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
-                              const FaceTable& faces, const Vector<Dim>* normal) {
-  ContactReport report;
-  std::array<Pair<Dim>, most_pairs> storage;
-  const int count = find_pairs<Dim>(grains, settings, faces, normal, storage, report);
-  Motion<Dim> motion;
-  for (std::size_t g = 0; g < grains.size(); ++g) motion.end[g] = grains[g].end;
-  const std::span<Pair<Dim>> pairs =
-      pushing<Dim>(grains, {storage.data(), static_cast<std::size_t>(count)}, motion.end);
-  report.pairs = static_cast<int>(pairs.size());
-  if (pairs.empty()) return report;
-  const bool rubs = settings.friction > 0.0;
-  if (rubs) {
-    // What the particles keep is no impulse that they were given.
-    for (std::size_t g = 0; g < grains.size(); ++g) {
-      motion.end[g] = grains[g].end - grains[g].start * settings.kept;
-    }
-    find_pushes<Dim>(grains, motion.end, pairs);
-  }
+/// Ties the pairs of a node that push each other, and lets them rub.
+template <int Dim, std::size_t Count>
+void tie_pairs(std::span<NodeGrain<Dim>, Count> grains, const ContactSettings& settings,
+               Collision<Dim, Count>& collision, ContactReport& report) {
+  Motion<Dim, Count>& motion = collision.motion;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     motion.start[g] = grains[g].start;
     motion.end[g] = grains[g].end;
   }
-  TiedSpace<Dim> space(grains);
-  for (const Pair<Dim>& pair : pairs) space.tie(pair.a, pair.b, pair.normal);
-  project<Dim>(settings, space, motion);
-  if (rubs) {
-    find_rubs<Dim>(settings, pairs, motion, space);
-    rub_pairs<Dim>(grains, pairs, space, motion, report);
+  TiedSpace<Dim, Count> space(grains);
+  for (const Pair<Dim>& pair : collision.pairs) space.tie(pair.a, pair.b, pair.normal);
+  project<Dim, Count>(settings, space, motion);
+  if (settings.friction > 0.0) {
+    find_rubs<Dim, Count>(settings, collision.pairs, motion, space);
+    rub_pairs<Dim, Count>(grains, collision.pairs, space, motion, report);
   }
-  if (settings.mirrored) book_impact<Dim>(grains, motion, report);
+  if (settings.mirrored) book_impact<Dim, Count>(grains, motion, report);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     grains[g].start = motion.start[g];
     grains[g].end = motion.end[g];
   }
-  return report;
 }
 
+/// Several nodes of one known number of grains.
+template <int Dim, std::size_t Count>
+void resolve(std::span<ContactNode<Dim>> nodes, const FaceTable& faces) {
+  std::array<Collision<Dim, Count>, lane_count> collisions;
+  std::array<PushedNode<Dim, Count>, lane_count> pushed;
+  const auto grains_of = [&](std::size_t n) {
+    return std::span<NodeGrain<Dim>, Count>(nodes[n].grains);
+  };
+  const auto push = [&] {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      pushed[n] = {grains_of(n), collisions[n].pairs, &collisions[n].motion.end};
+    }
+    find_pushes<Dim, Count>({pushed.data(), nodes.size()});
+  };
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    Collision<Dim, Count>& c = collisions[n];
+    const int count = find_pairs<Dim, Count>(grains_of(n), nodes[n].settings, faces,
+                                             nodes[n].normal, c.storage, nodes[n].report);
+    c.pairs = {c.storage.data(), static_cast<std::size_t>(count)};
+    for (std::size_t g = 0; g < nodes[n].grains.size(); ++g) c.motion.end[g] = grains_of(n)[g].end;
+  }
+  push();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    collisions[n].pairs = pushing(collisions[n].pairs);
+    nodes[n].report.pairs = static_cast<int>(collisions[n].pairs.size());
+    // What the particles keep is no impulse that they were given.
+    for (std::size_t g = 0; g < nodes[n].grains.size(); ++g) {
+      const NodeGrain<Dim>& grain = grains_of(n)[g];
+      collisions[n].motion.end[g] = grain.end - grain.start * nodes[n].settings.kept;
+    }
+  }
+  if (nodes.front().settings.friction > 0.0) push();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (collisions[n].pairs.empty()) continue;
+    tie_pairs<Dim, Count>(grains_of(n), nodes[n].settings, collisions[n], nodes[n].report);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void resolve_contacts(std::span<ContactNode<Dim>> nodes, const FaceTable& faces) {
+  switch (nodes.front().grains.size()) {
+    case 2:
+      return resolve<Dim, 2>(nodes, faces);
+    case 3:
+      return resolve<Dim, 3>(nodes, faces);
+    case 4:
+      return resolve<Dim, 4>(nodes, faces);
+    case 5:
+      return resolve<Dim, 5>(nodes, faces);
+    default:
+      return resolve<Dim, std::dynamic_extent>(nodes, faces);
+  }
+}
+
+template <int Dim>
+ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
+                              const FaceTable& faces, const Vector<Dim>* normal) {
+  ContactNode<Dim> node{grains, settings, normal, {}};
+  resolve_contacts<Dim>({&node, 1}, faces);
+  return node.report;
+}
+
+template void resolve_contacts<2>(std::span<ContactNode<2>>, const FaceTable&);
+template void resolve_contacts<3>(std::span<ContactNode<3>>, const FaceTable&);
 template ContactReport resolve_contact<2>(std::span<NodeGrain<2>>, const ContactSettings&,
                                           const FaceTable&, const Vector<2>*);
 template ContactReport resolve_contact<3>(std::span<NodeGrain<3>>, const ContactSettings&,

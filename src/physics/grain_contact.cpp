@@ -22,13 +22,13 @@ double share_inside(int index, int count, bool periodic, double beyond) {
 
 /// Largest component of the sum of all impulses at a node, over that of their sizes.
 template <int Dim>
-double momentum_residual(const Entries<Dim>& entries, int count) {
+double momentum_residual(std::span<NodeGrain<Dim>> grains, const Entries& entries) {
   using Motion = MotionLane<Dim>;
   double worst = 0.0;
   for (int a = 0; a < Dim; ++a) {
     double sum = 0.0, size = 0.0;
-    for (int k = 0; k < count; ++k) {
-      const NodeGrain<Dim>& grain = entries[k].grain;
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      const NodeGrain<Dim>& grain = grains[k];
       const double before = (*entries[k].motion)[Motion::end_velocity + a];
       sum += grain.mass * (grain.end[a] - before);
       size += grain.mass * (std::abs(grain.end[a]) + std::abs(before));
@@ -36,6 +36,20 @@ double momentum_residual(const Entries<Dim>& entries, int count) {
     if (size > 0.0) worst = std::max(worst, std::abs(sum) / size);
   }
   return worst;
+}
+
+/// Counts what happened at a node.
+template <int Dim>
+void book(const ContactNode<Dim>& node, const Entries& entries, NodeLedger& ledger,
+          ContactSummary& summary) {
+  const ContactReport& report = node.report;
+  ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
+  ledger.friction_heat += quantise(report.friction_heat, ledger.inverse_energy_quantum);
+  if (report.pairs > 0) ++summary.nodes;
+  if (node.grains.size() > 2) ++summary.crowded_nodes;
+  summary.least_gap = std::min(summary.least_gap, report.least_gap);
+  summary.penetration = std::max(summary.penetration, report.penetration);
+  summary.residual = std::max(summary.residual, momentum_residual<Dim>(node.grains, entries));
 }
 
 template <int Dim>
@@ -51,32 +65,48 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
   motion[Motion::heat] += grain.heat / grain.mass;
 }
 
+/// Shared nodes with one number of fields, which collide together.
 template <int Dim>
-void collide_node(const ContactGrids& grids, const NodePlace& node, const ContactSettings& settings,
-                  const FaceTable& faces, std::span<const NodePoint<Dim>> points,
-                  NodeLedger& ledger, ContactSummary& summary) {
-  Entries<Dim> entries;
-  const int count = read_entries<Dim>(grids, node, entries);
-  std::array<NodeGrain<Dim>, most_grains_at_node> grains;
-  for (int k = 0; k < count; ++k) grains[k] = entries[k].grain;
-  Vector<Dim> normal;
-  const ContactReport report = resolve_contact<Dim>(
-      std::span<NodeGrain<Dim>>(grains.data(), static_cast<std::size_t>(count)), settings, faces,
-      parting<Dim>(points, entries, count, normal));
-  for (int k = 0; k < count; ++k) entries[k].grain = grains[k];
-  if (node.row < grids.motion.last_row()) {
-    ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
-    ledger.friction_heat += quantise(report.friction_heat, ledger.inverse_energy_quantum);
-    if (report.pairs > 0) ++summary.nodes;
-    if (count > 2) ++summary.crowded_nodes;
-    summary.least_gap = std::min(summary.least_gap, report.least_gap);
-    summary.penetration = std::max(summary.penetration, report.penetration);
-    summary.residual = std::max(summary.residual, momentum_residual<Dim>(entries, count));
+class NodeBatch {
+ public:
+  bool full() const { return count_ == lane_count; }
+
+  void add(const ContactGrids& grids, const NodePlace& place, const Entries& entries, int fields,
+           const ContactSettings& settings, std::span<const NodePoint<Dim>> points) {
+    const auto n = static_cast<std::size_t>(count_++);
+    owned_[n] = place.row < grids.motion.last_row();
+    entries_[n] = entries;
+    nodes_[n] = {{grains_[n].data(), static_cast<std::size_t>(fields)},
+                 settings,
+                 parting<Dim>(points, entries, fields, normals_[n]),
+                 {}};
+    for (std::size_t k = 0; k < nodes_[n].grains.size(); ++k) {
+      grains_[n][k] = read_grain<Dim>(*entries[k].motion, *entries[k].surface);
+    }
   }
-  for (int k = 0; k < count; ++k) {
-    write_grain<Dim>(entries[k].grain, *entries[k].motion, *entries[k].surface);
+
+  /// Lets them collide and takes them out.
+  void collide(const FaceTable& faces, NodeLedger& ledger, ContactSummary& summary) {
+    if (count_ == 0) return;
+    resolve_contacts<Dim>({nodes_.data(), static_cast<std::size_t>(count_)}, faces);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(count_); ++n) {
+      const ContactNode<Dim>& node = nodes_[n];
+      if (owned_[n]) book<Dim>(node, entries_[n], ledger, summary);
+      for (std::size_t k = 0; k < node.grains.size(); ++k) {
+        write_grain<Dim>(node.grains[k], *entries_[n][k].motion, *entries_[n][k].surface);
+      }
+    }
+    count_ = 0;
   }
-}
+
+ private:
+  int count_ = 0;
+  std::array<ContactNode<Dim>, lane_count> nodes_;
+  std::array<std::array<NodeGrain<Dim>, most_grains_at_node>, lane_count> grains_;
+  std::array<Entries, lane_count> entries_;
+  std::array<Vector<Dim>, lane_count> normals_;
+  std::array<bool, lane_count> owned_{};
+};
 
 }  // namespace
 
@@ -119,14 +149,20 @@ ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodeP
                               NodeLedger& ledger) {
   const GridShape& shape = grids.motion.shape();
   ContactSummary summary;
+  std::vector<NodeBatch<Dim>> batches(most_grains_at_node + 1);  // by the number of fields
   for (std::size_t n = 0; n < shared.size(); ++n) {
     const NodePlace& node = shared[n];
     ContactSettings here = settings;
     here.capacity = node_capacity(shape, scene.transfer, node.row, node.lateral);
     here.mirrored = is_mirrored(scene.boundary, shape, node.row, node.lateral);
     if (here.mirrored) here.kept = 0.0;
-    collide_node<Dim>(grids, node, here, faces, points_of(points, n), ledger, summary);
+    Entries entries;
+    const int fields = read_entries<Dim>(grids, node, entries);
+    NodeBatch<Dim>& batch = batches[static_cast<std::size_t>(fields)];
+    batch.add(grids, node, entries, fields, here, points_of(points, n));
+    if (batch.full()) batch.collide(faces, ledger, summary);
   }
+  for (NodeBatch<Dim>& batch : batches) batch.collide(faces, ledger, summary);
   return summary;
 }
 

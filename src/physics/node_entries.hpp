@@ -9,30 +9,14 @@
 
 namespace poreshock {
 
-/// A field at a node and where its results go.
-template <int Dim>
+/// A field with mass at a node.
 struct Entry {
-  NodeGrain<Dim> grain;
-  Lanes* motion = nullptr;
-  Lanes* surface = nullptr;
-  std::int8_t field = 0;
+  Lanes* motion;
+  Lanes* surface;
+  std::int8_t field;
 };
 
-template <int Dim>
-using Entries = std::array<Entry<Dim>, most_grains_at_node>;
-
-/// Order that does not know the numbers of the fields.
-template <int Dim>
-bool comes_before(const Entry<Dim>& a, const Entry<Dim>& b) {
-  if (a.grain.mass != b.grain.mass) return a.grain.mass > b.grain.mass;
-  for (int k = 0; k < Dim; ++k) {
-    if (a.grain.end[k] != b.grain.end[k]) return a.grain.end[k] < b.grain.end[k];
-  }
-  for (int k = 0; k < Dim; ++k) {
-    if (a.grain.place[k] != b.grain.place[k]) return a.grain.place[k] < b.grain.place[k];
-  }
-  return false;
-}
+using Entries = std::array<Entry, most_grains_at_node>;
 
 template <int Dim>
 NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
@@ -51,16 +35,32 @@ NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
   return grain;
 }
 
+/// Order that does not know the numbers of the fields.
+template <int Dim>
+bool comes_before(const Entry& first, const Entry& second) {
+  const double masses[2] = {(*first.motion)[MotionLane<Dim>::mass],
+                            (*second.motion)[MotionLane<Dim>::mass]};
+  if (masses[0] != masses[1]) return masses[0] > masses[1];
+  const NodeGrain<Dim> a = read_grain<Dim>(*first.motion, *first.surface);
+  const NodeGrain<Dim> b = read_grain<Dim>(*second.motion, *second.surface);
+  for (int k = 0; k < Dim; ++k) {
+    if (a.end[k] != b.end[k]) return a.end[k] < b.end[k];
+  }
+  for (int k = 0; k < Dim; ++k) {
+    if (a.place[k] != b.place[k]) return a.place[k] < b.place[k];
+  }
+  return false;
+}
+
 /// Fields with mass at a node, in their order; returns how many.
 template <int Dim>
-int read_entries(const ContactGrids& grids, const NodePlace& node, Entries<Dim>& entries) {
+int read_entries(const ContactGrids& grids, const NodePlace& node, Entries& entries) {
   int count = 0;
   for (int f = 0; f < grids.motion.fields(); ++f) {
     Lanes* const motion = grids.motion.find(f, node.row, node.lateral);
     if (motion == nullptr || !((*motion)[MotionLane<Dim>::mass] > 0.0)) continue;
-    Lanes* const surface = grids.surfaces.line(f, node.row, node.lateral);
-    const Entry<Dim> entry{read_grain<Dim>(*motion, *surface), motion, surface,
-                           static_cast<std::int8_t>(f)};
+    const Entry entry{motion, grids.surfaces.line(f, node.row, node.lateral),
+                      static_cast<std::int8_t>(f)};
     int place = count++;
     for (; place > 0 && comes_before<Dim>(entry, entries[place - 1]); --place) {
       entries[place] = entries[place - 1];
@@ -73,7 +73,7 @@ int read_entries(const ContactGrids& grids, const NodePlace& node, Entries<Dim>&
 /// Normal from the first to the second of two fields at a node, from the points there; null where
 /// it is to come from the gradients.
 template <int Dim>
-const Vector<Dim>* parting(std::span<const NodePoint<Dim>> points, const Entries<Dim>& entries,
+const Vector<Dim>* parting(std::span<const NodePoint<Dim>> points, const Entries& entries,
                            int count, Vector<Dim>& normal) {
   if (count != 2 || points.empty()) return nullptr;
   normal = parting_normal<Dim>(points, entries[0].field, entries[1].field);

@@ -9,21 +9,32 @@
 
 namespace poreshock {
 
+/// Grains of a node. Where their number is known when the program is compiled, loops over them are
+/// unrolled.
+template <int Dim, std::size_t Count>
+using NodeGrains = std::span<const NodeGrain<Dim>, Count>;
+
+/// Most of them.
+template <std::size_t Count>
+inline constexpr std::size_t most_of = Count == std::dynamic_extent ? most_grains_at_node : Count;
+
 /// Velocities of all grains of a node.
-template <int Dim>
-using NodeVelocities = std::array<Vector<Dim>, most_grains_at_node>;
+template <int Dim, std::size_t Count>
+using NodeVelocities = std::array<Vector<Dim>, most_of<Count>>;
 
 /// Velocities t with n . (t_b - t_a) = 0 for some pairs a, b of the grains of a node, by an
 /// orthonormal basis of what is not among them in the product sum of m u . v.
-template <int Dim>
+template <int Dim, std::size_t Count>
 class TiedSpace {
  public:
-  explicit TiedSpace(std::span<const NodeGrain<Dim>> grains) : grains_(grains) {}
+  using Velocities = NodeVelocities<Dim, Count>;
+
+  explicit TiedSpace(NodeGrains<Dim, Count> grains) : grains_(grains) {}
 
   /// Ties a and b along n, a unit vector. What follows from earlier ties changes nothing.
   void tie(int a, int b, const Vector<Dim>& n) {
     constexpr double dependent = 1e-4;
-    NodeVelocities<Dim>& e = basis_[static_cast<std::size_t>(count_)];
+    Velocities& e = basis_[static_cast<std::size_t>(count_)];
     for (std::size_t g = 0; g < grains_.size(); ++g) e[g].setZero();
     const double ma = grains_[static_cast<std::size_t>(a)].mass;
     const double mb = grains_[static_cast<std::size_t>(b)].mass;
@@ -43,16 +54,16 @@ class TiedSpace {
   }
 
   /// The nearest velocities of the space. Keeps sum m u up to rounding.
-  void project(NodeVelocities<Dim>& u) const {
+  void project(Velocities& u) const {
     for (int k = 0; k < count_; ++k) {
-      const NodeVelocities<Dim>& e = basis_[static_cast<std::size_t>(k)];
+      const Velocities& e = basis_[static_cast<std::size_t>(k)];
       const double share = product(u, e);
       for (std::size_t g = 0; g < grains_.size(); ++g) u[g] -= e[g] * share;
     }
   }
 
   /// Sum of m u . v.
-  double product(const NodeVelocities<Dim>& u, const NodeVelocities<Dim>& v) const {
+  double product(const Velocities& u, const Velocities& v) const {
     double sum = 0.0;
     for (std::size_t g = 0; g < grains_.size(); ++g) sum += grains_[g].mass * dot<Dim>(u[g], v[g]);
     return sum;
@@ -60,7 +71,7 @@ class TiedSpace {
 
  private:
   /// What rounding left of it, which a short rest makes large.
-  void remove_momentum(NodeVelocities<Dim>& u) const {
+  void remove_momentum(Velocities& u) const {
     Vector<Dim> momentum = Vector<Dim>::Zero();
     double mass = 0.0;
     for (std::size_t g = 0; g < grains_.size(); ++g) {
@@ -70,10 +81,10 @@ class TiedSpace {
     for (std::size_t g = 0; g < grains_.size(); ++g) u[g] -= momentum / mass;
   }
 
-  std::span<const NodeGrain<Dim>> grains_;
+  NodeGrains<Dim, Count> grains_;
   int count_ = 0;
   /// One more than there can be, for a tie that turns out to follow from the others.
-  std::array<NodeVelocities<Dim>, Dim*(most_grains_at_node - 1) + 1> basis_;
+  std::array<Velocities, Dim*(most_of<Count> - 1) + 1> basis_;
 };
 
 }  // namespace poreshock

@@ -85,6 +85,33 @@ inline Lanes join(const HalfLanes& low, const HalfLanes& high) {
 
 #endif
 
+/// The larger of two numbers, lane by lane.
+inline HalfLanes larger(const HalfLanes& a, const HalfLanes& b) {
+  return a < b ? b : a;
+}
+
+/// x where a and b differ, else y, lane by lane.
+inline HalfLanes where_differ(const HalfLanes& a, const HalfLanes& b, const HalfLanes& x,
+                              const HalfLanes& y) {
+  return a != b ? x : y;
+}
+
+inline Lanes larger(const Lanes& a, const Lanes& b) {
+#ifdef __AVX512F__
+  return a < b ? b : a;
+#else
+  return {larger(a.low, b.low), larger(a.high, b.high)};
+#endif
+}
+
+inline Lanes where_differ(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y) {
+#ifdef __AVX512F__
+  return a != b ? x : y;
+#else
+  return {where_differ(a.low, b.low, x.low, y.low), where_differ(a.high, b.high, x.high, y.high)};
+#endif
+}
+
 /// a b + c rounded once, lane by lane. The result is the same without the instruction; the compiler
 /// does not find it by itself in every loop.
 inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {

@@ -18,6 +18,16 @@ struct ContactReport {
   double impact_heat = 0.0;    ///< J, of normal impulses beside a wall
 };
 
+/// A node where grains may collide.
+template <int Dim>
+struct ContactNode {
+  std::span<NodeGrain<Dim>> grains;
+  ContactSettings settings;
+  /// From the first to the second of two grains; null: from their gradients.
+  const Vector<Dim>* normal = nullptr;
+  ContactReport report;  ///< set by contact
+};
+
 /// Lets the grains of a node collide: a pair that touches and closes is tied. Start
 /// and end velocities are projected on those of one normal velocity in every tied pair, orthogonal
 /// in sum m u . v. So the impulses do no work with the mean of both, and what the start velocities
@@ -35,5 +45,10 @@ struct ContactReport {
 template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
                               const FaceTable& faces, const Vector<Dim>* normal = nullptr);
+
+/// The same for 1 ... lane_count nodes with one number of grains and one friction; none feels the
+/// others.
+template <int Dim>
+void resolve_contacts(std::span<ContactNode<Dim>> nodes, const FaceTable& faces);
 
 }  // namespace poreshock
