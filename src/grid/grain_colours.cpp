@@ -74,18 +74,12 @@ class RunMap {
   }
 
   const std::vector<CellRun>& runs() const { return runs_; }
+  /// Longest run less one cell.
+  int longest() const { return longest_; }
 
-  /// Calls visit(run) for those of a line that overlap [first, last].
-  template <class Visit>
-  void for_each_in(int row, int y, int first, int last, Visit&& visit) const {
-    if (row < first_row_ || row >= first_row_ + rows_ || y >= lines_) return;
-    const auto begin = runs_.begin() + static_cast<std::ptrdiff_t>(start_[place(row, y)]);
-    const auto end = runs_.begin() + static_cast<std::ptrdiff_t>(start_[place(row, y) + 1]);
-    const auto before = [](const CellRun& r, int x) { return r.first < x; };
-    for (auto r = std::lower_bound(begin, end, first - longest_, before);
-         r != end && r->first <= last; ++r) {
-      if (r->last >= first) visit(*r);
-    }
+  std::span<const CellRun> line(int row, int y) const {
+    if (row < first_row_ || row >= first_row_ + rows_ || y >= lines_) return {};
+    return {runs_.data() + start_[place(row, y)], runs_.data() + start_[place(row, y) + 1]};
   }
 
  private:
@@ -106,6 +100,20 @@ void join(std::int32_t a, std::int32_t b, Neighbours& near) {
   std::vector<std::int32_t>& list = near[static_cast<std::size_t>(std::min(a, b))];
   const std::int32_t other = std::max(a, b);
   if (std::find(list.begin(), list.end(), other) == list.end()) list.push_back(other);
+}
+
+/// Joins the grains of two lines whose runs overlap when those of the first are `reach` cells
+/// longer at both ends, and moved by `shift`. `longest`: see RunMap.
+void join_lines(std::span<const CellRun> line, std::span<const CellRun> others, int reach,
+                int shift, int longest, Neighbours& near) {
+  auto from = others.begin();
+  for (const CellRun& r : line) {
+    const int first = r.first - reach + shift, last = r.last + reach + shift;
+    while (from != others.end() && from->first + longest < first) ++from;
+    for (auto other = from; other != others.end() && other->first <= last; ++other) {
+      if (other->last >= first && other->grain != r.grain) join(r.grain, other->grain, near);
+    }
+  }
 }
 
 /// Indices within reach of one along y, each once.
@@ -146,22 +154,19 @@ std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const S
   std::vector<int> ys;
   // Stencil cells 0 and `around` are one and the same across a periodic side.
   const int around = shape.nodes[0] - 3;
-  for (const CellRun& r : map.runs()) {
+  for (std::size_t first = 0; first < map.runs().size();) {
+    const CellRun& r = map.runs()[first];
+    const std::span<const CellRun> line = map.line(r.row, r.y);
+    first += line.size();
     near_indices(r.y, shape.dimension == 3 ? reach : 0, shape.nodes[1],
                  shape.dimension == 3 && shape.periodic[1], ys);
     for (int row = r.row; row <= r.row + reach; ++row) {
       for (const int y : ys) {
-        const auto join_in = [&](int first, int last) {
-          if (last < 0 || first >= shape.nodes[0]) return;
-          map.for_each_in(row, y, first, last, [&](const CellRun& other) {
-            if (other.grain != r.grain) join(r.grain, other.grain, near);
-          });
-        };
-        const int first = r.first - reach, last = r.last + reach;
-        join_in(first, last);
-        if (!shape.periodic[0]) continue;
-        join_in(first - around, last - around);
-        join_in(first + around, last + around);
+        const std::span<const CellRun> others = map.line(row, y);
+        for (const int shift : {0, -around, around}) {
+          if (shift != 0 && !shape.periodic[0]) continue;
+          join_lines(line, others, reach, shift, map.longest(), near);
+        }
       }
     }
   }

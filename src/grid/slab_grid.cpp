@@ -130,25 +130,24 @@ void SlabGrid::clear() {
   }
 }
 
-void SlabGrid::add_row(int row, const Lanes* buffer, int field) {
+Lanes* SlabGrid::target(int row, int node_row, int field, const NodeRun& run) {
   const std::ptrdiff_t width = shape_.row_size;
   const int depth = shape_.stencil - 1;
-  for (int k = 0; k <= depth; ++k) {
-    const int node_row = row + k;
-    const Lanes* source = buffer + k * width;
-    Lanes* plane = nullptr;
-    if (has_below_ && node_row < first_ + depth) {
-      plane = seam_->field(field) + down_plane(row - first_, node_row - first_) * width;
-    } else if (has_above_ && node_row >= last_) {
-      plane = seam_->field(field) + up_plane(row - (last_ - depth), node_row - last_) * width;
-    }
-    for (const NodeRun& run : runs_of(*layout_, field, node_row)) {
-      if (plane != nullptr) {
-        std::copy(source + run.first, source + run.last, plane + run.first);
-        continue;
-      }
-      Lanes* target = nodes_.data() + run.shift;
-      for (std::ptrdiff_t i = run.first; i < run.last; ++i) target[i] += source[i];
+  if (has_below_ && node_row < first_ + depth) {
+    return seam_->field(field) + down_plane(row - first_, node_row - first_) * width;
+  }
+  if (has_above_ && node_row >= last_) {
+    return seam_->field(field) + up_plane(row - (last_ - depth), node_row - last_) * width;
+  }
+  return nodes_.data() + run.shift;
+}
+
+void SlabGrid::add_row(int row, const Lanes* buffer, int field) {
+  for (int k = 0; k < shape_.stencil; ++k) {
+    const Lanes* source = buffer + std::ptrdiff_t{k} * shape_.row_size;
+    for (const NodeRun& run : runs_of(*layout_, field, row + k)) {
+      Lanes* to = target(row, row + k, field, run);
+      for (std::ptrdiff_t i = run.first; i < run.last; ++i) to[i] += source[i];
     }
   }
 }

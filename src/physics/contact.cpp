@@ -203,8 +203,8 @@ void tie_pairs(std::span<NodeGrain<Dim>, Count> grains, const ContactSettings& s
 /// Several nodes of one known number of grains.
 template <int Dim, std::size_t Count>
 void resolve(std::span<ContactNode<Dim>> nodes, const FaceTable& faces) {
-  std::array<Collision<Dim, Count>, lane_count> collisions;
-  std::array<PushedNode<Dim, Count>, lane_count> pushed;
+  std::array<Collision<Dim, Count>, most_contact_nodes> collisions;
+  std::array<PushedNode<Dim, Count>, most_contact_nodes> pushed;
   const auto grains_of = [&](std::size_t n) {
     return std::span<NodeGrain<Dim>, Count>(nodes[n].grains);
   };

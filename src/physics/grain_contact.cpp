@@ -22,7 +22,7 @@ double share_inside(int index, int count, bool periodic, double beyond) {
 
 /// Largest component of the sum of all impulses at a node, over that of their sizes.
 template <int Dim>
-double momentum_residual(std::span<NodeGrain<Dim>> grains, const Entries& entries) {
+double momentum_residual(std::span<NodeGrain<Dim>> grains, const Entry* entries) {
   using Motion = MotionLane<Dim>;
   double worst = 0.0;
   for (int a = 0; a < Dim; ++a) {
@@ -40,7 +40,7 @@ double momentum_residual(std::span<NodeGrain<Dim>> grains, const Entries& entrie
 
 /// Counts what happened at a node.
 template <int Dim>
-void book(const ContactNode<Dim>& node, const Entries& entries, NodeLedger& ledger,
+void book(const ContactNode<Dim>& node, const Entry* entries, NodeLedger& ledger,
           ContactSummary& summary) {
   const ContactReport& report = node.report;
   ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
@@ -67,46 +67,54 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
 
 /// Shared nodes with one number of fields, which collide together.
 template <int Dim>
-class NodeBatch {
- public:
-  bool full() const { return count_ == lane_count; }
-
-  void add(const ContactGrids& grids, const NodePlace& place, const Entries& entries, int fields,
-           const ContactSettings& settings, std::span<const NodePoint<Dim>> points) {
-    const auto n = static_cast<std::size_t>(count_++);
-    owned_[n] = place.row < grids.motion.last_row();
-    entries_[n] = entries;
-    nodes_[n] = {{grains_[n].data(), static_cast<std::size_t>(fields)},
-                 settings,
-                 parting<Dim>(points, entries, fields, normals_[n]),
-                 {}};
-    for (std::size_t k = 0; k < nodes_[n].grains.size(); ++k) {
-      grains_[n][k] = read_grain<Dim>(*entries[k].motion, *entries[k].surface);
-    }
-  }
-
-  /// Lets them collide and takes them out.
-  void collide(const FaceTable& faces, NodeLedger& ledger, ContactSummary& summary) {
-    if (count_ == 0) return;
-    resolve_contacts<Dim>({nodes_.data(), static_cast<std::size_t>(count_)}, faces);
-    for (std::size_t n = 0; n < static_cast<std::size_t>(count_); ++n) {
-      const ContactNode<Dim>& node = nodes_[n];
-      if (owned_[n]) book<Dim>(node, entries_[n], ledger, summary);
-      for (std::size_t k = 0; k < node.grains.size(); ++k) {
-        write_grain<Dim>(node.grains[k], *entries_[n][k].motion, *entries_[n][k].surface);
-      }
-    }
-    count_ = 0;
-  }
-
- private:
-  int count_ = 0;
-  std::array<ContactNode<Dim>, lane_count> nodes_;
-  std::array<std::array<NodeGrain<Dim>, most_grains_at_node>, lane_count> grains_;
-  std::array<Entries, lane_count> entries_;
-  std::array<Vector<Dim>, lane_count> normals_;
-  std::array<bool, lane_count> owned_{};
+struct NodeBatch {
+  std::vector<ContactNode<Dim>> nodes;
+  std::vector<Entry> entries;          ///< of the first node, then of the next
+  std::vector<NodeGrain<Dim>> grains;  ///< in the same order
+  std::vector<Vector<Dim>> normals;    ///< of the nodes
+  std::vector<std::int32_t> rows;      ///< of the nodes
 };
+
+template <int Dim>
+void add_node(const NodePlace& place, std::span<const Entry> entries,
+              const ContactSettings& settings, std::span<const NodePoint<Dim>> points,
+              NodeBatch<Dim>& batch) {
+  if (batch.nodes.capacity() == 0) {
+    batch.nodes.reserve(most_contact_nodes);
+    batch.grains.reserve(most_contact_nodes * entries.size());
+    batch.normals.reserve(most_contact_nodes);
+  }
+  const std::size_t at = batch.grains.size();
+  for (const Entry& entry : entries) {
+    batch.entries.push_back(entry);
+    batch.grains.push_back(read_grain<Dim>(*entry.motion, *entry.surface));
+  }
+  batch.rows.push_back(place.row);
+  Vector<Dim>& normal = batch.normals.emplace_back();
+  batch.nodes.push_back({{batch.grains.data() + at, entries.size()},
+                         settings,
+                         parting<Dim>(points, entries, normal),
+                         {}});
+}
+
+/// Lets the nodes of a batch collide and takes them out.
+template <int Dim>
+void collide_batch(const ContactGrids& grids, const FaceTable& faces, NodeBatch<Dim>& batch,
+                   NodeLedger& ledger, ContactSummary& summary) {
+  if (batch.nodes.empty()) return;
+  resolve_contacts<Dim>(batch.nodes, faces);
+  const Entry* entry = batch.entries.data();
+  for (std::size_t n = 0; n < batch.nodes.size(); ++n) {
+    const ContactNode<Dim>& node = batch.nodes[n];
+    if (batch.rows[n] < grids.motion.last_row()) book<Dim>(node, entry, ledger, summary);
+    for (const NodeGrain<Dim>& grain : node.grains) {
+      write_grain<Dim>(grain, *entry->motion, *entry->surface);
+      ++entry;
+    }
+  }
+  batch.nodes.clear(), batch.entries.clear(), batch.grains.clear();
+  batch.normals.clear(), batch.rows.clear();
+}
 
 }  // namespace
 
@@ -124,19 +132,21 @@ double node_capacity(const GridShape& shape, const Transfer& transfer, int row, 
 std::vector<NodePlace> shared_nodes(const SlabGrid& motion, int mass_lane) {
   std::vector<NodePlace> shared;
   if (motion.fields() == 1) return shared;
-  std::vector<std::int8_t> count(static_cast<std::size_t>(motion.shape().row_size));
+  std::vector<std::uint32_t> fields(static_cast<std::size_t>(motion.shape().row_size));
   for (int row = motion.first_row(); row < motion.node_end(); ++row) {
-    std::ranges::fill(count, 0);
+    std::ranges::fill(fields, 0U);
     for (int field = 0; field < motion.fields(); ++field) {
       for (const NodeRun& run : runs_of(motion.layout(), field, row)) {
         const Lanes* const nodes = motion.line(field, row, run.first) - run.first;
         for (int i = run.first; i < run.last; ++i) {
-          if (nodes[i][mass_lane] > 0.0) ++count[static_cast<std::size_t>(i)];
+          const std::uint32_t there = nodes[i][mass_lane] > 0.0 ? 1U : 0U;
+          fields[static_cast<std::size_t>(i)] |= there << field;
         }
       }
     }
-    for (std::size_t i = 0; i < count.size(); ++i) {
-      if (count[i] > 1) shared.push_back({row, static_cast<std::int32_t>(i)});
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const bool several = (fields[i] & (fields[i] - 1)) != 0;
+      if (several) shared.push_back({row, static_cast<std::int32_t>(i), fields[i]});
     }
   }
   return shared;
@@ -156,13 +166,16 @@ ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodeP
     here.capacity = node_capacity(shape, scene.transfer, node.row, node.lateral);
     here.mirrored = is_mirrored(scene.boundary, shape, node.row, node.lateral);
     if (here.mirrored) here.kept = 0.0;
-    Entries entries;
-    const int fields = read_entries<Dim>(grids, node, entries);
-    NodeBatch<Dim>& batch = batches[static_cast<std::size_t>(fields)];
-    batch.add(grids, node, entries, fields, here, points_of(points, n));
-    if (batch.full()) batch.collide(faces, ledger, summary);
+    Entries storage;
+    const std::span<const Entry> entries = read_entries<Dim>(grids, node, storage);
+    NodeBatch<Dim>& batch = batches[entries.size()];
+    add_node<Dim>(node, entries, here, points_of(points, n), batch);
+    if (batch.nodes.size() < most_contact_nodes) continue;
+    collide_batch<Dim>(grids, faces, batch, ledger, summary);
   }
-  for (NodeBatch<Dim>& batch : batches) batch.collide(faces, ledger, summary);
+  for (NodeBatch<Dim>& batch : batches) {
+    collide_batch<Dim>(grids, faces, batch, ledger, summary);
+  }
   return summary;
 }
 

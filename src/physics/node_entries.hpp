@@ -2,6 +2,7 @@
 // Private to physics: the fields that share a node.
 
 #include <array>
+#include <bit>
 
 #include "poreshock/physics/grain_contact.hpp"
 #include "poreshock/physics/parting_plane.hpp"
@@ -52,30 +53,30 @@ bool comes_before(const Entry& first, const Entry& second) {
   return false;
 }
 
-/// Fields with mass at a node, in their order; returns how many.
+/// Fields with mass at a node, in their order.
 template <int Dim>
-int read_entries(const ContactGrids& grids, const NodePlace& node, Entries& entries) {
-  int count = 0;
-  for (int f = 0; f < grids.motion.fields(); ++f) {
-    Lanes* const motion = grids.motion.find(f, node.row, node.lateral);
-    if (motion == nullptr || !((*motion)[MotionLane<Dim>::mass] > 0.0)) continue;
-    const Entry entry{motion, grids.surfaces.line(f, node.row, node.lateral),
-                      static_cast<std::int8_t>(f)};
-    int place = count++;
+std::span<const Entry> read_entries(const ContactGrids& grids, const NodePlace& node,
+                                    Entries& entries) {
+  std::size_t count = 0;
+  for (std::uint32_t left = node.fields; left != 0; left &= left - 1) {
+    const int f = std::countr_zero(left);
+    const Entry entry{grids.motion.line(f, node.row, node.lateral),
+                      grids.surfaces.line(f, node.row, node.lateral), static_cast<std::int8_t>(f)};
+    std::size_t place = count++;
     for (; place > 0 && comes_before<Dim>(entry, entries[place - 1]); --place) {
       entries[place] = entries[place - 1];
     }
     entries[place] = entry;
   }
-  return count;
+  return {entries.data(), count};
 }
 
 /// Normal from the first to the second of two fields at a node, from the points there; null where
 /// it is to come from the gradients.
 template <int Dim>
-const Vector<Dim>* parting(std::span<const NodePoint<Dim>> points, const Entries& entries,
-                           int count, Vector<Dim>& normal) {
-  if (count != 2 || points.empty()) return nullptr;
+const Vector<Dim>* parting(std::span<const NodePoint<Dim>> points, std::span<const Entry> entries,
+                           Vector<Dim>& normal) {
+  if (entries.size() != 2 || points.empty()) return nullptr;
   normal = parting_normal<Dim>(points, entries[0].field, entries[1].field);
   return normal.squaredNorm() > 0.0 ? &normal : nullptr;
 }

@@ -93,13 +93,18 @@ void take_node(const PushedNode<Dim, Count>& node, int lane, NodeLanes<Dim, Most
   for (std::size_t g = 0; g < node.grains.size(); ++g) {
     nodes.inverse_mass[g][lane] = 1.0 / node.grains[g].mass;
     for (int k = 0; k < Dim; ++k) nodes.velocity[g][k][lane] = (*node.velocity)[g][k];
+    for (std::size_t h = g + 1; h < node.grains.size(); ++h) {
+      PairLanes<Dim>& lanes = nodes.pair[g][h];
+      for (int k = 0; k < Dim; ++k) lanes.normal[k][lane] = 0.0;
+      lanes.reduced[lane] = lanes.push[lane] = 0.0;
+    }
   }
   for (const Pair<Dim>& pair : node.pairs) {
     PairLanes<Dim>& lanes = nodes.pair[pair.a][pair.b];
     for (int k = 0; k < Dim; ++k) lanes.normal[k][lane] = pair.normal[k];
     lanes.reduced[lane] = pair.reduced;
   }
-  nodes.live[lane] = node.pairs.empty() ? 0.0 : 1.0;
+  nodes.live[lane] = 1.0;
 }
 
 template <int Dim, std::size_t Count, std::size_t Most>
@@ -110,32 +115,58 @@ void give_back(const NodeLanes<Dim, Most>& nodes, int lane, const PushedNode<Dim
   for (Pair<Dim>& pair : node.pairs) pair.push = nodes.pair[pair.a][pair.b].push[lane];
 }
 
+/// The impulse of a pair alone.
+template <int Dim, std::size_t Count>
+void push_alone(const PushedNode<Dim, Count>& node) {
+  Pair<Dim>& pair = node.pairs.front();
+  Vector<Dim>&a = (*node.velocity)[pair.a], &b = (*node.velocity)[pair.b];
+  pair.push = std::max(0.0 - pair.reduced * dot<Dim>(b - a, pair.normal), 0.0);
+  if (!(pair.push > 0.0)) return;
+  const Vector<Dim> impulse = pair.normal * pair.push;
+  a -= impulse * (1.0 / node.grains[pair.a].mass);
+  b += impulse * (1.0 / node.grains[pair.b].mass);
+}
+
 }  // namespace pushes
 
 /// Adds to velocities the least impulses that keep the pairs of each node from closing:
-/// Gauss-Seidel over all pairs, back and forth, until they stand. A single pair is solved by its
-/// first step. At most lane_count nodes; none feels the others.
+/// Gauss-Seidel over all pairs, forth and back, until they stand. A single pair is solved by its
+/// first step. Nodes do not feel each other: one that is done gives its lane to the next before a
+/// sweep forth.
 template <int Dim, std::size_t Count>
 void find_pushes(std::span<const PushedNode<Dim, Count>> several) {
+  std::size_t next = 0;
+  const auto next_crowded = [&] {
+    for (; next < several.size(); ++next) {
+      if (several[next].pairs.size() > 1) return true;
+      if (several[next].pairs.size() == 1) pushes::push_alone(several[next]);
+    }
+    return false;
+  };
+  if (!next_crowded()) return;
   pushes::NodeLanes<Dim, most_of<Count>> nodes{};
-  const int count = static_cast<int>(several.size());
-  for (int n = 0; n < count; ++n) pushes::take_node(several[static_cast<std::size_t>(n)], n, nodes);
-  bool goes_on = true;
-  for (int sweep = 0; goes_on && sweep < pushes::most_sweeps; ++sweep) {
-    if (sweep % 2 == 0) {
-      pushes::sweep_pairs<false>(nodes);
-    } else {
-      pushes::sweep_pairs<true>(nodes);
+  std::array<const PushedNode<Dim, Count>*, lane_count> taken{};
+  std::array<int, lane_count> sweeps{};
+  for (bool goes_on = true, back = false; goes_on; back = !back) {
+    for (int n = 0; n < lane_count && !back; ++n) {
+      if (taken[n] != nullptr || !next_crowded()) continue;
+      taken[n] = &several[next++];
+      sweeps[n] = 0;
+      pushes::take_node(*taken[n], n, nodes);
     }
+    back ? pushes::sweep_pairs<true>(nodes) : pushes::sweep_pairs<false>(nodes);
     goes_on = false;
-    for (int n = 0; n < count; ++n) {
-      const bool alone = several[static_cast<std::size_t>(n)].pairs.size() == 1;
-      if (alone || !(nodes.change[n] > pushes::converged * nodes.sum[n])) nodes.live[n] = 0.0;
-      goes_on = goes_on || nodes.live[n] > 0.0;
+    for (int n = 0; n < lane_count; ++n) {
+      if (taken[n] == nullptr) continue;
+      const bool moves = nodes.change[n] > pushes::converged * nodes.sum[n];
+      if (!moves || ++sweeps[n] == pushes::most_sweeps) {
+        pushes::give_back(nodes, n, *taken[n]);
+        taken[n] = nullptr;
+        nodes.live[n] = 0.0;
+      }
+      goes_on = goes_on || taken[n] != nullptr;
     }
-  }
-  for (int n = 0; n < count; ++n) {
-    pushes::give_back(nodes, n, several[static_cast<std::size_t>(n)]);
+    goes_on = goes_on || next_crowded();
   }
 }
 

@@ -31,9 +31,11 @@ class TiedSpace {
 
   explicit TiedSpace(NodeGrains<Dim, Count> grains) : grains_(grains) {}
 
-  /// Ties a and b along n, a unit vector. What follows from earlier ties changes nothing.
+  /// Ties a and b along n, a unit vector. What follows from earlier ties changes nothing, nor does
+  /// anything where all move alike.
   void tie(int a, int b, const Vector<Dim>& n) {
     constexpr double dependent = 1e-4;
+    if (count_ == Dim * (static_cast<int>(grains_.size()) - 1)) return;
     Velocities& e = basis_[static_cast<std::size_t>(count_)];
     for (std::size_t g = 0; g < grains_.size(); ++g) e[g].setZero();
     const double ma = grains_[static_cast<std::size_t>(a)].mass;
@@ -83,8 +85,7 @@ class TiedSpace {
 
   NodeGrains<Dim, Count> grains_;
   int count_ = 0;
-  /// One more than there can be, for a tie that turns out to follow from the others.
-  std::array<Velocities, Dim*(most_of<Count> - 1) + 1> basis_;
+  std::array<Velocities, Dim*(most_of<Count> - 1)> basis_;
 };
 
 }  // namespace poreshock

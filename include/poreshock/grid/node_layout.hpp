@@ -11,9 +11,10 @@
 
 namespace poreshock {
 
-/// A node of a slab: its row and its index in it.
+/// A node of a slab: its row and its index in it, and some of its fields, bit f for field f.
 struct NodePlace {
   std::int32_t row = 0, lateral = 0;
+  std::uint32_t fields = 0;
 };
 
 /// Neighbouring nodes first ... last - 1 of a row that a field has; node i is stored at shift + i.

@@ -115,10 +115,13 @@ class SlabGrid {
   /// Sets all nodal sums and the seam to +0. Not collective.
   void clear();
 
-  /// Adds the sums of the particles of one row and field to its `stencil` node rows, or keeps them
-  /// apart in the seam where another rank shares the nodes. Call at most once per row and field, in
-  /// row order. Not collective.
+  /// Adds the sums of the particles of one row and field to its `stencil` node rows. Call at most
+  /// once per row and field, in row order. Not collective.
   void add_row(int row, const Lanes* buffer, int field = 0);
+
+  /// Where the particles of a row add to a run of a field in one of its node rows: node i of the
+  /// run is entry i. In the seam that is apart from what other rows add.
+  Lanes* target(int row, int node_row, int field, const NodeRun& run);
 
   /// Completes the nodal sums: one exchange of the seam, sums in row order, periodic sides folded.
   /// Before: add_row for every row with particles. After: nodes in [first_row, node_end) hold the

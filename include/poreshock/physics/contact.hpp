@@ -46,8 +46,11 @@ template <int Dim>
 ContactReport resolve_contact(std::span<NodeGrain<Dim>> grains, const ContactSettings& settings,
                               const FaceTable& faces, const Vector<Dim>* normal = nullptr);
 
-/// The same for 1 ... lane_count nodes with one number of grains and one friction; none feels the
-/// others.
+/// Most nodes that collide together.
+inline constexpr int most_contact_nodes = 64;
+
+/// The same for 1 ... most_contact_nodes nodes with one number of grains and one friction; none
+/// feels the others.
 template <int Dim>
 void resolve_contacts(std::span<ContactNode<Dim>> nodes, const FaceTable& faces);
 

@@ -31,8 +31,8 @@ struct ContactSummary {
 /// index of the node in its row. Pure function.
 double node_capacity(const GridShape& shape, const Transfer& transfer, int row, int lateral);
 
-/// The nodes in [first_row, node_end) where two fields or more have mass; row after row. Not
-/// collective.
+/// The nodes in [first_row, node_end) where two fields or more have mass, with these fields; row
+/// after row. Not collective.
 std::vector<NodePlace> shared_nodes(const SlabGrid& motion, int mass_lane);
 
 /// Lets the grains of all shared nodes collide: velocities and the heat lane change, and

@@ -60,11 +60,9 @@ template <int Dim, class Spline, int Quantities>
 class PlanarBuffer {
  public:
   PlanarBuffer(const GridShape& shape, int fields)
-      : row_size_(shape.row_size),
-        pitch_(planar_pitch(shape)),
+      : pitch_(planar_pitch(shape)),
         values_(static_cast<std::size_t>(fields * field_size()), 0.0),
-        used_(static_cast<std::size_t>(fields), 0),
-        nodes_(static_cast<std::size_t>(Spline::width * row_size_ + lane_count)) {
+        used_(static_cast<std::size_t>(fields), 0) {
     rows.line_size = shape.nodes[0];
     for (int q = 0; q < Quantities; ++q) {
       for (int k = 0; k < Spline::width; ++k) {
@@ -87,9 +85,10 @@ class PlanarBuffer {
       if (used_[static_cast<std::size_t>(field)] == 0) continue;
       used_[static_cast<std::size_t>(field)] = 0;
       for (int k = 0; k < Spline::width; ++k) {
-        for (const NodeRun& run : runs_of(grid.layout(), field, row + k)) turn(run, field, k);
+        for (const NodeRun& run : runs_of(grid.layout(), field, row + k)) {
+          turn(run, field, k, grid.target(row, row + k, field, run));
+        }
       }
-      grid.add_row(row, nodes_.data(), field);
     }
   }
 
@@ -98,12 +97,11 @@ class PlanarBuffer {
  private:
   std::ptrdiff_t field_size() const { return Spline::width * Quantities * pitch_; }
 
-  /// Takes node row k of a field along a run out of the sums, a node a line of lanes.
-  void turn(const NodeRun& run, int field, int k) {
-    Lanes* const target = nodes_.data() + k * row_size_;
-    // The last block may go beyond the run, by less nodes than the field lacks there: it takes
-    // nothing from other runs. It may write beyond the row, where the next row comes afterwards.
+  /// Takes node row k of a field along a run out of the sums, and adds it to the nodes.
+  void turn(const NodeRun& run, int field, int k, Lanes* nodes) {
     for (std::ptrdiff_t i = run.first; i < run.last; i += lane_count) {
+      // The last block may go beyond the run, by less nodes than the field lacks there: it takes
+      // nothing from other runs.
       Lanes block[lane_count] = {};
       for (int q = 0; q < Quantities; ++q) {
         Lanes& sums = *reinterpret_cast<Lanes*>(rows.rows[q][k] + field * field_size() + i);
@@ -111,14 +109,17 @@ class PlanarBuffer {
         sums = Lanes{};
       }
       transpose(block);
-      for (int n = 0; n < lane_count; ++n) target[i + n] = block[n];
+      if (run.last - i >= lane_count) {
+        for (int n = 0; n < lane_count; ++n) nodes[i + n] += block[n];
+      } else {
+        for (int n = 0; n < run.last - i; ++n) nodes[i + n] += block[n];
+      }
     }
   }
 
-  std::ptrdiff_t row_size_, pitch_;
+  std::ptrdiff_t pitch_;
   std::vector<double> values_;
   std::vector<std::int8_t> used_;
-  std::vector<Lanes> nodes_;
 };
 
 }  // namespace poreshock
