@@ -95,23 +95,33 @@ class RunMap {
 
 using Neighbours = std::vector<std::vector<std::int32_t>>;
 
-/// Notes two neighbours, once, with the smaller one; a grain has few.
-void join(std::int32_t a, std::int32_t b, Neighbours& near) {
-  std::vector<std::int32_t>& list = near[static_cast<std::size_t>(std::min(a, b))];
-  const std::int32_t other = std::max(a, b);
-  if (std::find(list.begin(), list.end(), other) == list.end()) list.push_back(other);
+/// Pairs of neighbours, each once, with the smaller grain.
+struct Joined {
+  Neighbours near;
+  std::array<GrainPair, 256> latest{};  ///< some of them, as the same ones come again and again
+};
+
+/// Notes two neighbours; a grain has few.
+void join(std::int32_t a, std::int32_t b, Joined& joined) {
+  const GrainPair pair{std::min(a, b), std::max(a, b)};
+  const auto place = static_cast<std::uint32_t>(pair.first * 31 + pair.second);
+  GrainPair& latest = joined.latest[place % joined.latest.size()];
+  if (latest == pair) return;
+  latest = pair;
+  std::vector<std::int32_t>& list = joined.near[static_cast<std::size_t>(pair.first)];
+  if (std::find(list.begin(), list.end(), pair.second) == list.end()) list.push_back(pair.second);
 }
 
 /// Joins the grains of two lines whose runs overlap when those of the first are `reach` cells
 /// longer at both ends, and moved by `shift`. `longest`: see RunMap.
 void join_lines(std::span<const CellRun> line, std::span<const CellRun> others, int reach,
-                int shift, int longest, Neighbours& near) {
+                int shift, int longest, Joined& joined) {
   auto from = others.begin();
   for (const CellRun& r : line) {
     const int first = r.first - reach + shift, last = r.last + reach + shift;
     while (from != others.end() && from->first + longest < first) ++from;
     for (auto other = from; other != others.end() && other->first <= last; ++other) {
-      if (other->last >= first && other->grain != r.grain) join(r.grain, other->grain, near);
+      if (other->last >= first && other->grain != r.grain) join(r.grain, other->grain, joined);
     }
   }
 }
@@ -150,7 +160,8 @@ std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const S
   const RunMap map(std::move(runs), shape);
   std::int32_t most = -1;
   for (const CellRun& r : map.runs()) most = std::max(most, r.grain);
-  Neighbours near(static_cast<std::size_t>(most + 1));
+  Joined joined;
+  joined.near.resize(static_cast<std::size_t>(most + 1));
   std::vector<int> ys;
   // Stencil cells 0 and `around` are one and the same across a periodic side.
   const int around = shape.nodes[0] - 3;
@@ -165,14 +176,14 @@ std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const S
         const std::span<const CellRun> others = map.line(row, y);
         for (const int shift : {0, -around, around}) {
           if (shift != 0 && !shape.periodic[0]) continue;
-          join_lines(line, others, reach, shift, map.longest(), near);
+          join_lines(line, others, reach, shift, map.longest(), joined);
         }
       }
     }
   }
   std::vector<GrainPair> pairs;
-  for (std::size_t g = 0; g < near.size(); ++g) {
-    for (const std::int32_t other : near[g]) pairs.emplace_back(static_cast<int>(g), other);
+  for (std::size_t g = 0; g < joined.near.size(); ++g) {
+    for (const std::int32_t other : joined.near[g]) pairs.emplace_back(static_cast<int>(g), other);
   }
   pairs = gather_all(pairs, grid.communicator());
   keep_each_once(pairs);

@@ -75,26 +75,25 @@ struct NodeBatch {
   std::vector<std::int32_t> rows;      ///< of the nodes
 };
 
+/// Adds a node; the caller sets its settings.
 template <int Dim>
-void add_node(const NodePlace& place, std::span<const Entry> entries,
-              const ContactSettings& settings, std::span<const NodePoint<Dim>> points,
-              NodeBatch<Dim>& batch) {
+ContactNode<Dim>& add_node(int row, std::span<const Entry> entries,
+                           std::span<const NodePoint<Dim>> points, NodeBatch<Dim>& batch) {
   if (batch.nodes.capacity() == 0) {
     batch.nodes.reserve(most_contact_nodes);
     batch.grains.reserve(most_contact_nodes * entries.size());
     batch.normals.reserve(most_contact_nodes);
   }
-  const std::size_t at = batch.grains.size();
+  NodeGrain<Dim>* const first = batch.grains.data() + batch.grains.size();
   for (const Entry& entry : entries) {
     batch.entries.push_back(entry);
-    batch.grains.push_back(read_grain<Dim>(*entry.motion, *entry.surface));
+    read_grain<Dim>(*entry.motion, *entry.surface, batch.grains.emplace_back());
   }
-  batch.rows.push_back(place.row);
-  Vector<Dim>& normal = batch.normals.emplace_back();
-  batch.nodes.push_back({{batch.grains.data() + at, entries.size()},
-                         settings,
-                         parting<Dim>(points, entries, normal),
-                         {}});
+  batch.rows.push_back(row);
+  ContactNode<Dim>& node = batch.nodes.emplace_back();
+  node.grains = {first, entries.size()};
+  node.normal = parting<Dim>(points, entries, batch.normals.emplace_back());
+  return node;
 }
 
 /// Lets the nodes of a batch collide and takes them out.
@@ -161,15 +160,15 @@ ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodeP
   ContactSummary summary;
   std::vector<NodeBatch<Dim>> batches(most_grains_at_node + 1);  // by the number of fields
   for (std::size_t n = 0; n < shared.size(); ++n) {
-    const NodePlace& node = shared[n];
-    ContactSettings here = settings;
-    here.capacity = node_capacity(shape, scene.transfer, node.row, node.lateral);
-    here.mirrored = is_mirrored(scene.boundary, shape, node.row, node.lateral);
-    if (here.mirrored) here.kept = 0.0;
+    const NodePlace& place = shared[n];
     Entries storage;
-    const std::span<const Entry> entries = read_entries<Dim>(grids, node, storage);
+    const std::span<const Entry> entries = read_entries<Dim>(grids, place, storage);
     NodeBatch<Dim>& batch = batches[entries.size()];
-    add_node<Dim>(node, entries, here, points_of(points, n), batch);
+    ContactSettings& here = add_node<Dim>(place.row, entries, points_of(points, n), batch).settings;
+    here = settings;
+    here.capacity = node_capacity(shape, scene.transfer, place.row, place.lateral);
+    here.mirrored = is_mirrored(scene.boundary, shape, place.row, place.lateral);
+    if (here.mirrored) here.kept = 0.0;
     if (batch.nodes.size() < most_contact_nodes) continue;
     collide_batch<Dim>(grids, faces, batch, ledger, summary);
   }

@@ -20,10 +20,9 @@ struct Entry {
 using Entries = std::array<Entry, most_grains_at_node>;
 
 template <int Dim>
-NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
+void read_grain(const Lanes& motion, const Lanes& surface, NodeGrain<Dim>& grain) {
   using Motion = MotionLane<Dim>;
   using Surface = SurfaceLane<Dim>;
-  NodeGrain<Dim> grain;
   grain.mass = motion[Motion::mass];
   grain.volume = surface[Surface::volume];
   grain.strain = grain.volume > 0.0 ? surface[Surface::strain] / grain.volume : 0.0;
@@ -33,7 +32,6 @@ NodeGrain<Dim> read_grain(const Lanes& motion, const Lanes& surface) {
     grain.gradient[a] = surface[Surface::gradient + a];
     grain.place[a] = grain.volume > 0.0 ? surface[Surface::place + a] / grain.volume : 0.0;
   }
-  return grain;
 }
 
 /// Order that does not know the numbers of the fields.
@@ -42,8 +40,9 @@ bool comes_before(const Entry& first, const Entry& second) {
   const double masses[2] = {(*first.motion)[MotionLane<Dim>::mass],
                             (*second.motion)[MotionLane<Dim>::mass]};
   if (masses[0] != masses[1]) return masses[0] > masses[1];
-  const NodeGrain<Dim> a = read_grain<Dim>(*first.motion, *first.surface);
-  const NodeGrain<Dim> b = read_grain<Dim>(*second.motion, *second.surface);
+  NodeGrain<Dim> a, b;
+  read_grain<Dim>(*first.motion, *first.surface, a);
+  read_grain<Dim>(*second.motion, *second.surface, b);
   for (int k = 0; k < Dim; ++k) {
     if (a.end[k] != b.end[k]) return a.end[k] < b.end[k];
   }
