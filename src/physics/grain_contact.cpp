@@ -118,8 +118,7 @@ void collide_batch(const ContactGrids& grids, const FaceTable& faces, NodeBatch<
 }  // namespace
 
 double node_capacity(const GridShape& shape, const Transfer& transfer, int row, int lateral) {
-  const double beyond = with_shape(transfer.shape, transfer.half_length,
-                                   [](const auto& s) { return s.share_beyond(); });
+  const double beyond = with_shape(transfer, [](const auto& s) { return s.share_beyond(); });
   double space = 1.0;
   for (int a = 0; a < shape.dimension; ++a) space *= shape.cell;
   space = space * share_inside(row, shape.rows, false, beyond);

@@ -37,31 +37,24 @@ struct Choice {
   bool periodic;
 };
 
-inline const std::vector<Choice> all_choices = {
-    {ShapeFunction::linear, VelocityTransfer::flip, true},
-    {ShapeFunction::gimp, VelocityTransfer::flip, false},
-    {ShapeFunction::gimp, VelocityTransfer::flip, true},
-    {ShapeFunction::quadratic, VelocityTransfer::pic, false},
-    {ShapeFunction::quadratic, VelocityTransfer::flip, true},
-    {ShapeFunction::quadratic, VelocityTransfer::apic, false},
-    {ShapeFunction::quadratic, VelocityTransfer::apic, true},
-    {ShapeFunction::quadratic, VelocityTransfer::aflip, true},
-    {ShapeFunction::quadratic, VelocityTransfer::iapic, false},
-    {ShapeFunction::cubic, VelocityTransfer::pic, true},
-    {ShapeFunction::cubic, VelocityTransfer::flip, false},
-    {ShapeFunction::cubic, VelocityTransfer::apic, false},
-    {ShapeFunction::cubic, VelocityTransfer::apic, true},
-    {ShapeFunction::cubic, VelocityTransfer::aflip, false},
-    {ShapeFunction::cubic, VelocityTransfer::iapic, true},
-    {ShapeFunction::cubic, VelocityTransfer::polypic, false},
-    {ShapeFunction::cubic, VelocityTransfer::polyflip, false},
-    {ShapeFunction::cubic, VelocityTransfer::polyflip, true},
-    {ShapeFunction::cubic, VelocityTransfer::ipolypic, true}};
+/// All that suit each other: FLIP with both kinds of sides, others with one of them in turn.
+inline const std::vector<Choice> all_choices = [] {
+  std::vector<Choice> choices;
+  for (const ShapeFunction shape : shape_functions) {
+    for (const TransferScheme& scheme : transfer_schemes) {
+      if (!suits(scheme, shape)) continue;
+      choices.push_back({shape, scheme.velocity, choices.size() % 2 == 0});
+      if (scheme.velocity != VelocityTransfer::flip) continue;
+      choices.push_back({shape, scheme.velocity, choices.size() % 2 == 0});
+    }
+  }
+  return choices;
+}();
 
 inline std::string name(const Choice& choice) {
-  constexpr std::array shapes = {"linear ", "gimp ", "quadratic ", "cubic "};
-  return shapes[static_cast<std::size_t>(choice.shape)] +
-         std::string(scheme_of(choice.velocity).name) + (choice.periodic ? " periodic" : "");
+  const std::string_view shape = of_shape(choice.shape, [](const auto& s) { return s.name; });
+  return std::string(shape) + " " + std::string(scheme_of(choice.velocity).name) +
+         (choice.periodic ? " periodic" : "");
 }
 
 inline constexpr double half_length = 0.25;  // cells

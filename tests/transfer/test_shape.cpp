@@ -31,8 +31,9 @@ int base_of(double s) {
 
 template <class Spline>
 class Shape : public ::testing::Test {};
-using Shapes = ::testing::Types<LinearHat, UniformGimp, QuadraticSpline, CubicSpline>;
-TYPED_TEST_SUITE(Shape, Shapes);
+template <class... Type>
+::testing::Types<Type...> list_of(const std::tuple<Type...>&);
+TYPED_TEST_SUITE(Shape, decltype(list_of(ShapeFunctions{})));
 
 /// The same shape as the reference names it.
 template <class Type>

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 
 #include "poreshock/core/lanes.hpp"
 
@@ -149,24 +150,24 @@ struct CubicSpline {
 };
 
 /// All of them, in the order of their names in a message.
-inline constexpr std::array shape_functions = {LinearHat::kind, UniformGimp::kind,
-                                               QuadraticSpline::kind, CubicSpline::kind};
+using ShapeFunctions = std::tuple<LinearHat, UniformGimp, QuadraticSpline, CubicSpline>;
+
+inline constexpr std::array shape_functions =
+    std::apply([](const auto&... shape) { return std::array{shape.kind...}; }, ShapeFunctions{});
 
 /// Returns run(shape function) with the one of this kind: the run-time choice becomes a type.
-/// @param half_length cells, half the edge of a particle; for GIMP
-template <class Run>
+/// @param half_length cells, half the edge of a particle; for shapes that have one
+template <std::size_t Number = 0, class Run>
 constexpr decltype(auto) with_shape(ShapeFunction kind, double half_length, Run&& run) {
-  switch (kind) {
-    case ShapeFunction::linear:
-      return run(LinearHat{});
-    case ShapeFunction::gimp:
-      return run(UniformGimp{half_length});
-    case ShapeFunction::quadratic:
-      return run(QuadraticSpline{});
-    case ShapeFunction::cubic:
-      break;
+  using Shape = std::tuple_element_t<Number, ShapeFunctions>;
+  if constexpr (Number + 1 < std::tuple_size_v<ShapeFunctions>) {
+    if (kind != Shape::kind) return with_shape<Number + 1>(kind, half_length, run);
   }
-  return run(CubicSpline{});
+  if constexpr (requires { Shape{half_length}; }) {
+    return run(Shape{half_length});
+  } else {
+    return run(Shape{});
+  }
 }
 
 /// Returns get(shape function) of one whose particles' edge does not matter.

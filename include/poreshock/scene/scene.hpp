@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "poreshock/core/shape.hpp"
 #include "poreshock/material/material.hpp"
 #include "poreshock/scene/sides.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock {
 
@@ -23,7 +23,6 @@ enum class Regions { grains, matrix };   ///< what the connected regions of an i
 enum class GapTest { volume, none };
 enum class ContactNormal { gradients, regression };
 enum class PorosityDefinition { void_fraction, distension_minus_1 };
-enum class VelocityTransfer { pic, flip, apic, aflip, iapic, polypic, polyflip, ipolypic };
 enum class BodyShape { disc, box, ring, polygon };  // ball, box, shell in 3-D
 enum class MapLattice { eulerian, lagrangian };
 enum class MapVoids { black, white, fill, exclude };
@@ -104,14 +103,6 @@ struct Loading {
   double velocity = 0.0;  ///< m/s towards the low wall
   Triple frame{};         ///< m/s, added to everything, walls included
   bool operator==(const Loading&) const = default;
-};
-
-struct Transfer {
-  ShapeFunction shape = ShapeFunction::cubic;
-  VelocityTransfer velocity = VelocityTransfer::aflip;
-  double damping = 0.05;     ///< decay of the residual while sound crosses a cell
-  double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
-  bool operator==(const Transfer&) const = default;
 };
 
 struct Viscosity {

@@ -9,9 +9,20 @@
 #include <utility>
 
 #include "poreshock/core/shape.hpp"
-#include "poreshock/scene/scene.hpp"
+#include "poreshock/core/tensor.hpp"
 
 namespace poreshock {
+
+enum class VelocityTransfer { pic, flip, apic, aflip, iapic, polypic, polyflip, ipolypic };
+
+/// What a scene asks for.
+struct Transfer {
+  ShapeFunction shape = ShapeFunction::cubic;
+  VelocityTransfer velocity = VelocityTransfer::aflip;
+  double damping = 0.05;     ///< decay of the residual while sound crosses a cell
+  double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
+  bool operator==(const Transfer&) const = default;
+};
 
 /// Modes of the velocity around a particle: v; + A r; + all products r_a r_b (cubic splines only),
 /// r = (x_i - x_p)/cell.
@@ -69,8 +80,8 @@ constexpr bool suits(const TransferScheme& scheme, ShapeFunction shape) {
 
 /// Calls run(shape function) with the one the scene asks for.
 template <class Run>
-inline void with_shape(const Transfer& transfer, Run&& run) {
-  with_shape(transfer.shape, transfer.half_length, run);
+inline decltype(auto) with_shape(const Transfer& transfer, Run&& run) {
+  return with_shape(transfer.shape, transfer.half_length, run);
 }
 
 /// Calls run<modes, keeps>(shape function) for the transfer and the shape that the scene asks for.
