@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -239,23 +238,9 @@ std::vector<HotSpot<Dim>> find_hot_spots(const PixelField<Dim>& map, std::size_t
   return spots;
 }
 
-template <int Dim>
-std::vector<std::int64_t> size_distribution(const std::vector<HotSpot<Dim>>& spots) {
-  std::vector<std::int64_t> result;
-  for (const HotSpot<Dim>& spot : spots) {
-    const auto bin =
-        static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(spot.pixels))) - 1;
-    if (result.size() <= bin) result.resize(bin + 1, 0);
-    ++result[bin];
-  }
-  return result;
-}
-
 template std::vector<HotSpot<2>> find_hot_spots<2>(const PixelField<2>&, std::size_t, double,
                                                    Joining, MPI_Comm);
 template std::vector<HotSpot<3>> find_hot_spots<3>(const PixelField<3>&, std::size_t, double,
                                                    Joining, MPI_Comm);
-template std::vector<std::int64_t> size_distribution<2>(const std::vector<HotSpot<2>>&);
-template std::vector<std::int64_t> size_distribution<3>(const std::vector<HotSpot<3>>&);
 
 }  // namespace poreshock

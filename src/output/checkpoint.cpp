@@ -146,10 +146,6 @@ CheckpointHeader checkpoint_header(const std::string& path, MPI_Comm communicato
   return header;
 }
 
-int checkpoint_dimension(const std::string& path, MPI_Comm communicator) {
-  return checkpoint_header(path, communicator).dimension;
-}
-
 std::string latest_checkpoint(const std::string& folder, MPI_Comm communicator, std::string& note) {
   note.clear();
   std::string names;

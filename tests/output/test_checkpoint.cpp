@@ -128,11 +128,11 @@ TEST(Checkpoint, BadFilesAreRefusedWithTheReason) {
   const std::string path = folder / checkpoint_name(7);
   EXPECT_TRUE(contains(refusal(path), "not found"));
   write_sample<3>(path, 5, {}, world);
-  EXPECT_EQ(checkpoint_dimension(path, world), 3);
+  EXPECT_EQ(checkpoint_header(path, world).dimension, 3);
   EXPECT_TRUE(contains(refusal(path), "3-D")) << refusal(path);
   write_sample<2>(path, 500, {}, world);
-  EXPECT_EQ(checkpoint_dimension(path, world), 2);
   const CheckpointHeader header = checkpoint_header(path, world);
+  EXPECT_EQ(header.dimension, 2);
   EXPECT_EQ(header.particles, 500);
   EXPECT_EQ(header.step, sample_state.step);
   EXPECT_EQ(header.time, sample_state.time);

@@ -25,19 +25,17 @@ inline double deviator_energy(const Solid& m, double v, double q) {
   return m.shear > 0.0 && !m.elastic_energy_heats ? v * q * q / (6.0 * m.shear) : 0.0;
 }
 
-/// State at volume v behind a jump from `ahead`: momentum, mass, energy; pressure linear in energy.
-/// Without its temperature, which costs an integral: roots are sought with this.
-inline State mechanical_jump(const Solid& m, const State& ahead, double v) {
+/// State at volume v and von Mises stress q behind a jump from `ahead`: momentum, mass, energy;
+/// pressure linear in energy. Without its temperature, which costs an integral.
+inline State jump_to(const Solid& m, const State& ahead, double v, double q) {
   State s;
   s.volume = v;
-  const double strain = std::log(m.volume() / v);
-  const double trial = 2.0 * m.shear * strain;
-  const double excess = std::max(trial - m.yield, 0.0);
-  s.plastic_strain = m.shear > 0.0 ? excess / (3.0 * m.shear + m.hardening) : 0.0;
-  s.flow_stress = trial - 3.0 * m.shear * s.plastic_strain;
-  const double axial = 2.0 / 3.0 * s.flow_stress;
+  s.flow_stress = q;
+  const double trial = 2.0 * m.shear * std::log(m.volume() / v);
+  s.plastic_strain = m.shear > 0.0 ? std::max(trial - q, 0.0) / (3.0 * m.shear) : 0.0;
+  const double axial = 2.0 / 3.0 * q;
   const double before = ahead.energy + deviator_energy(m, ahead.volume, ahead.flow_stress);
-  const double stored = deviator_energy(m, v, s.flow_stress);
+  const double stored = deviator_energy(m, v, q);
   const double half = 0.5 * (ahead.volume - v);
   const double g = m.gamma / v;
   s.pressure = (curve_pressure(m, v) +
@@ -48,6 +46,16 @@ inline State mechanical_jump(const Solid& m, const State& ahead, double v) {
   const double jump = std::sqrt((s.stress - ahead.stress) * (ahead.volume - v));
   s.velocity = ahead.velocity + jump;
   s.front = ahead.velocity + ahead.volume * jump / (ahead.volume - v);
+  return s;
+}
+
+/// The same with linear hardening.
+inline State mechanical_jump(const Solid& m, const State& ahead, double v) {
+  const double trial = 2.0 * m.shear * std::log(m.volume() / v);
+  const double excess = std::max(trial - m.yield, 0.0);
+  const double strain = m.shear > 0.0 ? excess / (3.0 * m.shear + m.hardening) : 0.0;
+  State s = jump_to(m, ahead, v, trial - 3.0 * m.shear * strain);
+  s.plastic_strain = strain;
   return s;
 }
 

@@ -35,26 +35,13 @@ double flow_stress_at(const MaterialParameters& m, double strain, double pressur
 /// State behind one jump from rest to volume v: the flow stress by iteration.
 reference::State behind_jump(const MaterialParameters& m, double v) {
   const reference::Solid solid = reference::solid(m);
-  const double strain = std::log(solid.volume() / v);
   reference::State s;
-  s.volume = v;
   s.flow_stress = 1e8;
   for (int k = 0; k < 30; ++k) {
-    s.plastic_strain =
-        std::max(0.0, (2.0 * solid.shear * strain - s.flow_stress) / (3.0 * solid.shear));
-    const double axial = 2.0 / 3.0 * s.flow_stress, half = 0.5 * (solid.volume() - v);
-    const double stored = v * s.flow_stress * s.flow_stress / (6.0 * solid.shear);
-    const double g = solid.gamma / v;
-    s.pressure = (reference::curve_pressure(solid, v) +
-                  g * (half * axial - stored - reference::curve_energy(solid, v))) /
-                 (1.0 - g * half);
-    s.stress = s.pressure + axial;
-    s.energy = half * s.stress - stored;
+    s = reference::jump_to(solid, reference::at_rest(solid), v, s.flow_stress);
     s.flow_stress = flow_stress_at(m, s.plastic_strain, s.pressure, v, s.energy);
   }
   s.temperature = reference::temperature(solid, v, s.energy);
-  s.velocity = std::sqrt(s.stress * (solid.volume() - v));
-  s.front = solid.volume() * s.velocity / (solid.volume() - v);
   return s;
 }
 

@@ -72,8 +72,4 @@ template <int Dim>
 std::vector<HotSpot<Dim>> find_hot_spots(const PixelField<Dim>& map, std::size_t field,
                                          double threshold, Joining joining, MPI_Comm communicator);
 
-/// Number of domains of 2^k to 2^(k+1) - 1 pixels in entry k; no trailing zeros. Not collective.
-template <int Dim>
-std::vector<std::int64_t> size_distribution(const std::vector<HotSpot<Dim>>& spots);
-
 }  // namespace poreshock

@@ -54,9 +54,6 @@ void read_checkpoint(const std::string& path, MPI_Comm communicator, std::string
 /// Header of a checkpoint, which is verified before. InputError as above. Collective.
 CheckpointHeader checkpoint_header(const std::string& path, MPI_Comm communicator);
 
-/// 2 or 3; InputError as above. Collective.
-int checkpoint_dimension(const std::string& path, MPI_Comm communicator);
-
 /// Newest checkpoint of a folder that passes verify(), older ones when newer ones do not. `note`
 /// gets one line for each file passed over, and is empty when there was none. InputError when none
 /// is good. Collective.
