@@ -9,7 +9,7 @@
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/run/start_warnings.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/solver/simulation.hpp"
+#include "poreshock/solver/start.hpp"
 #include "run_estimate.hpp"
 
 namespace poreshock {

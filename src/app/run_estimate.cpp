@@ -44,7 +44,7 @@ double mechanical_step(const Simulation<Dim>& sim) {
     const double c = shocked * longitudinal_sound_speed(material);
     const double Q = scene.viscosity.linear * c;
     const double wave = (scene.loading.velocity + Q + std::hypot(Q, c)) / scene.time.cfl;
-    const double lone = lone_rate<Dim>(sim.stress_settings, material);
+    const double lone = lone_rate<Dim>(stress_settings(sim), material);
     rate = std::max({rate, wave, scene.loading.velocity + lone * c});
   }
   const bool plane =

@@ -140,6 +140,29 @@ std::vector<double> read_field(const std::string& name, const Columns& columns) 
   return result;
 }
 
+/// A field of the particles as pixels, their places relative to a grid that has moved by `shift`
+/// (m). Collective.
+template <int Dim>
+PixelField<Dim> map_in_space(const std::vector<double>& values, const Columns& columns,
+                             const Scene& scene, const Vector<Dim>& shift,
+                             const PixelGrid<Dim>& grid) {
+  auto position = columns.read("position", Dim);
+  const auto mass = columns.read("mass", 1);
+  const auto density = columns.read("density", 1);
+  PixelSources<Dim> sources;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    for (double& x : position[a]) x -= shift[static_cast<Eigen::Index>(a)];
+    sources.position[a] = position[a];
+  }
+  sources.mass = mass[0];
+  sources.density = density[0];
+  PixelScales scales = {0.0, 2.0 * scene.domain.cell};
+  for (const MaterialParameters& m : scene.materials) {
+    scales.density = std::max(scales.density, m.density);
+  }
+  return deposit<Dim>(sources, {values}, scales, grid);
+}
+
 template <int Dim>
 PixelLayout<Dim> layout_of(const Scene& scene, double pixel) {
   PixelLayout<Dim> layout;
@@ -211,31 +234,17 @@ StoredMap<Dim> map_of_snapshot(const std::string& path, const AnalyzeOptions& op
   const Columns columns{equal_share(file.dataset("/particles/id").rows(), communicator), path,
                         file};
   const std::vector<double> values = read_field<Dim>(result.field, columns);
-  const bool single = scene.output.precision == Precision::single_precision;
   if (sites) {
     std::vector<std::int64_t> id(columns.rows.count);
     file.read<std::int64_t>("/particles/id", columns.rows.first, id);
     result.map = place_on_lattice<Dim>(id, {values}, grid);
-    result.map.single_precision = single;
-    return result;
+  } else {
+    for (int a = 0; a < Dim; ++a) {
+      result.shift[a] = file.number(std::string("origin_") + "xyz"[a]);
+    }
+    result.map = map_in_space<Dim>(values, columns, scene, result.shift, grid);
   }
-  auto position = columns.read("position", Dim);
-  const auto mass = columns.read("mass", 1);
-  const auto density = columns.read("density", 1);
-  PixelSources<Dim> sources;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    result.shift[static_cast<Eigen::Index>(a)] = file.number(std::string("origin_") + "xyz"[a]);
-    for (double& x : position[a]) x -= result.shift[static_cast<Eigen::Index>(a)];
-    sources.position[a] = position[a];
-  }
-  sources.mass = mass[0];
-  sources.density = density[0];
-  PixelScales scales = {0.0, 2.0 * scene.domain.cell};
-  for (const MaterialParameters& m : scene.materials) {
-    scales.density = std::max(scales.density, m.density);
-  }
-  result.map = deposit<Dim>(sources, {values}, scales, grid);
-  result.map.single_precision = single;
+  result.map.single_precision = scene.output.precision == Precision::single_precision;
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// What the readers of the image formats share. Private to the layer.
+// What the readers of the image formats share: pgm_image.cpp, png_image.cpp, tiff_image.cpp.
+// Private to the layer.
 
 #include <cstdint>
 #include <string>

@@ -112,19 +112,22 @@ void label_row(const Slab& slab, const Runs& runs, int y, int z, bool corners, L
   }
 }
 
+/// A row of runs with their labels.
+struct LabelledRow {
+  std::span<const Run> runs;
+  const std::uint32_t* label;
+};
+
 /// Joins the labels of two rows that touch across periodic sides; b is reached from a with `step`
 /// crossings.
-void join_across(const Slab& slab, const Runs& runs, std::size_t row_a, std::size_t row_b,
-                 Crossings step, bool corners, std::span<const std::uint32_t> label,
-                 Labels& labels) {
-  const std::span<const Run> a = runs.row(row_a);
-  const std::span<const Run> b = runs.row(row_b);
+void join_across(const Slab& slab, const LabelledRow& row_a, const LabelledRow& row_b,
+                 Crossings step, bool corners, Labels& labels) {
+  const auto [a, label_a] = row_a;
+  const auto [b, label_b] = row_b;
   if (a.empty() || b.empty()) return;
-  const std::uint32_t* label_a = label.data() + runs.starts[row_a];
-  const std::uint32_t* label_b = label.data() + runs.starts[row_b];
   if (step.y != 0) {
     for_each_overlap(a, b, corners, [&](std::size_t i, std::size_t j, bool touch) {
-      if (touch) join(label_a[i], label_b[j], step, labels);
+      if (touch) join(row_a.label[i], row_b.label[j], step, labels);
     });
   }
   if (!corners || !slab.periodic_x) return;
@@ -140,6 +143,9 @@ void join_across(const Slab& slab, const Runs& runs, std::size_t row_a, std::siz
 /// Joins all labels that touch across periodic sides.
 void join_sides(const Slab& slab, const Runs& runs, bool corners,
                 std::span<const std::uint32_t> label, Labels& labels) {
+  const auto labelled = [&](std::size_t row) {
+    return LabelledRow{runs.row(row), label.data() + runs.starts[row]};
+  };
   for (std::size_t row = 0; slab.periodic_x && row + 1 < runs.starts.size(); ++row) {
     const std::span<const Run> here = runs.row(row);
     if (here.empty() || here.front().first != 0 || here.back().last != slab.nx - 1) continue;
@@ -153,8 +159,8 @@ void join_sides(const Slab& slab, const Runs& runs, bool corners,
       step.y = other < 0 ? -1 : 1;
       other -= step.y * slab.ny;
     }
-    join_across(slab, runs, row_at(slab, y, z), row_at(slab, other, z + to.dz), step, corners,
-                label, labels);
+    join_across(slab, labelled(row_at(slab, y, z)), labelled(row_at(slab, other, z + to.dz)), step,
+                corners, labels);
   });
 }
 

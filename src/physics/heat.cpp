@@ -119,11 +119,12 @@ void collect_heat(const std::vector<Material>& materials, const CellOrder& cells
   divide_by_capacity(grid);
 }
 
-/// Particles take their share of the rise and lose what they handed over.
+/// Particles take their share of the rise and lose what they handed over; returns the quanta they
+/// gain.
 template <int Dim, class Spline>
-void take_heat(const std::vector<Material>& materials, const CellOrder& cells,
-               double inverse_quantum, const SlabGrid& grid, const HeatFlow<Dim>& scratch,
-               Particles<Dim>& particles, Int128& gained) {
+Int128 take_heat(const std::vector<Material>& materials, const CellOrder& cells,
+                 double inverse_quantum, const SlabGrid& grid, const HeatFlow<Dim>& scratch,
+                 Particles<Dim>& particles) {
   const bool separate = particles.options.conducted_heat;
   Int128 sum = 0;
   gather<Dim>(Spline{}, particles, cells, grid,
@@ -138,23 +139,23 @@ void take_heat(const std::vector<Material>& materials, const CellOrder& cells,
                 if (separate) particles.conducted_heat[p] += heat;
                 sum += quantise(particles.mass[p] * heat, inverse_quantum);
               });
-  gained += sum;
+  return sum;
 }
 
 }  // namespace
 
 template <int Dim>
-void conduct_heat(const std::vector<Material>& materials, Thermal thermal, ShapeFunction shape,
-                  const CellOrder& cells, double dt, double inverse_quantum, SlabGrid& grid,
-                  HeatFlow<Dim>& scratch, Particles<Dim>& particles, Int128& gained) {
-  const auto run = [&]<class Spline>(Spline) {
-    collect_temperature<Dim, Spline>(materials, thermal, cells, particles, grid);
-    take_gradient<Dim, Spline>(materials, thermal, cells, grid, particles, scratch);
-    collect_heat<Dim, Spline>(materials, cells, dt, particles, scratch, grid);
-    take_heat<Dim, Spline>(materials, cells, inverse_quantum, grid, scratch, particles, gained);
-  };
-  of_shape(shape, [&]<class Shape>(const Shape& spline) {
-    if constexpr (has_inertia<Shape>) run(spline);
+void conduct_heat(const std::vector<Material>& materials, const HeatSettings& settings,
+                  const CellOrder& cells, SlabGrid& grid, HeatFlow<Dim>& scratch,
+                  Particles<Dim>& particles, Int128& gained) {
+  of_shape(settings.shape, [&]<class Shape>(const Shape&) {
+    if constexpr (has_inertia<Shape>) {
+      collect_temperature<Dim, Shape>(materials, settings.thermal, cells, particles, grid);
+      take_gradient<Dim, Shape>(materials, settings.thermal, cells, grid, particles, scratch);
+      collect_heat<Dim, Shape>(materials, cells, settings.dt, particles, scratch, grid);
+      gained += take_heat<Dim, Shape>(materials, cells, settings.inverse_energy_quantum, grid,
+                                      scratch, particles);
+    }
   });
 }
 
@@ -172,11 +173,9 @@ double conduction_limit(const std::vector<Material>& materials, ShapeFunction sh
   return cell * cell / (dimension * spread * diffusivity);
 }
 
-template void conduct_heat<2>(const std::vector<Material>&, Thermal, ShapeFunction,
-                              const CellOrder&, double, double, SlabGrid&, HeatFlow<2>&,
-                              Particles<2>&, Int128&);
-template void conduct_heat<3>(const std::vector<Material>&, Thermal, ShapeFunction,
-                              const CellOrder&, double, double, SlabGrid&, HeatFlow<3>&,
-                              Particles<3>&, Int128&);
+template void conduct_heat<2>(const std::vector<Material>&, const HeatSettings&, const CellOrder&,
+                              SlabGrid&, HeatFlow<2>&, Particles<2>&, Int128&);
+template void conduct_heat<3>(const std::vector<Material>&, const HeatSettings&, const CellOrder&,
+                              SlabGrid&, HeatFlow<3>&, Particles<3>&, Int128&);
 
 }  // namespace poreshock

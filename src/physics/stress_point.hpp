@@ -34,31 +34,6 @@ struct BlockResults {
   double travel[block_size];
 };
 
-/// Artificial viscosity and stable step of one particle.
-struct ViscousStep {
-  double pressure, limit;
-};
-
-/// `linear` and `quadratic` are the shares of the two viscosities that act, `lone` is what a
-/// particle alone bounds the step to, in sound speeds per cell.
-inline ViscousStep viscous_step(const Viscosity& viscosity, double cell, double cfl, double lone,
-                                double density, double sound_speed, double dilatation,
-                                double linear, double quadratic, double strain_rate, double speed) {
-  const double closing = dilatation < 0.0 ? -(cell * dilatation) : 0.0;
-  // With what really acts, so that smooth flow pays nothing.
-  const double share =
-      viscosity.linear * linear * (closing / (closing + least_closing * sound_speed));
-  const double Q = share * sound_speed + viscosity.quadratic * quadratic * closing;
-  const double pressure = density * (Q * closing);
-  // What divides is the same for all particles of a loop.
-  const double wave =
-      (speed + Q + std::sqrt(Q * Q + sound_speed * sound_speed)) * (1.0 / (cfl * cell));
-  const double alone = (speed + lone * sound_speed) * (1.0 / cell);
-  const double strain = strain_rate * (1.0 / largest_strain_increment);
-  const double rate = wave > alone ? wave : alone;
-  return {pressure, 1.0 / (rate > strain ? rate : strain)};
-}
-
 /// Particles and what the step found for them as raw pointers, for the vectorised loop.
 template <int Dim>
 struct Columns {
@@ -124,6 +99,37 @@ inline Motion<Dim> load_motion(const StressSettings<Dim>& settings, double dt,
     motion.speed = magnitude > motion.speed ? magnitude : motion.speed;
   }
   return motion;
+}
+
+/// Shares of the two artificial viscosities that act.
+struct ActingShares {
+  double linear, quadratic;
+};
+
+/// Artificial viscosity and stable step of one particle.
+struct ViscousStep {
+  double pressure, limit;
+};
+
+/// `lone` is what a particle alone bounds the step to, in sound speeds per cell.
+template <int Dim>
+inline ViscousStep viscous_step(const StressSettings<Dim>& settings, double lone,
+                                const Motion<Dim>& motion, ActingShares shares, double density,
+                                double sound_speed) {
+  const double cell = settings.cell;
+  const double closing = motion.dilatation < 0.0 ? -(cell * motion.dilatation) : 0.0;
+  // With what really acts, so that smooth flow pays nothing.
+  const double share = settings.viscosity.linear * shares.linear *
+                       (closing / (closing + least_closing * sound_speed));
+  const double Q = share * sound_speed + settings.viscosity.quadratic * shares.quadratic * closing;
+  const double pressure = density * (Q * closing);
+  // What divides is the same for all particles of a loop.
+  const double wave = (motion.speed + Q + std::sqrt(Q * Q + sound_speed * sound_speed)) *
+                      (1.0 / (settings.cfl * cell));
+  const double alone = (motion.speed + lone * sound_speed) * (1.0 / cell);
+  const double strain = motion.strain_rate * (1.0 / largest_strain_increment);
+  const double rate = wave > alone ? wave : alone;
+  return {pressure, 1.0 / (rate > strain ? rate : strain)};
 }
 
 /// How a particle yields: by linear hardening without or with a back stress, or by a flow stress
@@ -217,10 +223,8 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;
   const double sound_speed = std::sqrt(c2 + 4.0 / 3.0 * m.strength.shear * volume);
-  const ViscousStep next =
-      viscous_step(settings.viscosity, settings.cell, settings.cfl, lone, density, sound_speed,
-                   motion.dilatation, c.viscous_linear[i], c.viscous_quadratic[i],
-                   motion.strain_rate, motion.speed);
+  const ActingShares shares = {c.viscous_linear[i], c.viscous_quadratic[i]};
+  const ViscousStep next = viscous_step<Dim>(settings, lone, motion, shares, density, sound_speed);
 
   for (int k = 0; k < size; ++k) p.deviator[k][i] = mapped.deviator[k];
   if constexpr (kinematic) {

@@ -11,6 +11,7 @@
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/run/measure.hpp"
 #include "poreshock/run/profiles.hpp"
+#include "poreshock/solver/start.hpp"
 
 namespace poreshock {
 

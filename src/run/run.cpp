@@ -22,6 +22,7 @@
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
+#include "poreshock/solver/start.hpp"
 
 namespace poreshock {
 
@@ -200,6 +201,22 @@ void stop_with_checkpoint(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   }
 }
 
+/// The output folder, locked, with its scene and without what the run will write again. Collective.
+template <int Dim>
+std::unique_ptr<FolderLock> open_folder(const RunOptions& options, const Simulation<Dim>& sim) {
+  const std::string& folder = options.folder;
+  auto lock = prepare_output_folder(folder, options.force, options.continues, sim.communicator);
+  on_rank_zero(sim.communicator, [&] { write_scene_file(folder, sim); });
+  if (options.continues) remove_checkpoints_after(folder, sim.clock.step, sim.communicator);
+  // A run that is already at its end writes no records again.
+  if (!options.restart.empty() && !at_end(sim.scene.time, sim.clock)) {
+    remove_morphology_from(folder, sim.clock.beat + 1, sim.communicator);
+    remove_profiles_from(folder, sim.clock.beat + 1, sim.communicator);
+    remove_records_from(folder, sim.clock.beat + 1, sim.communicator);
+  }
+  return lock;
+}
+
 template <int Dim>
 RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
                  Progress& progress) {
@@ -243,18 +260,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   std::unique_ptr<PixelGrid<Dim>> pixels = make_pixels(sim);
   if (options.continues) require_same_records(options.folder, sim);
   // Not before: a sample that cannot be made and a damaged checkpoint cost no earlier result.
-  const auto lock =
-      prepare_output_folder(options.folder, options.force, options.continues, communicator);
-  on_rank_zero(communicator, [&] { write_scene_file(options.folder, sim); });
-  if (options.continues) {
-    remove_checkpoints_after(options.folder, sim.clock.step, communicator);
-  }
-  // A run that is already at its end writes no records again.
-  if (restarted && !at_end(scene.time, sim.clock)) {
-    remove_morphology_from(options.folder, sim.clock.beat + 1, communicator);
-    remove_profiles_from(options.folder, sim.clock.beat + 1, communicator);
-    remove_records_from(options.folder, sim.clock.beat + 1, communicator);
-  }
+  const auto lock = open_folder(options, sim);
   Recorder<Dim> recorder = make_recorder(options.folder, restarted, std::move(pixels), sim);
   if (options.continues) recorder.backlog.newest_checkpoint = options.restart;
   progress.to_go.start = {sim.clock.time, sim.clock.step, MPI_Wtime() - progress.start_wall};

@@ -1,5 +1,6 @@
 #pragma once
 // Generated grains: where they are and which of them a point of the sample block belongs to.
+// Also in pack_grains.cpp, voronoi_grains.cpp, image_grains.cpp.
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Voids placed without regard to each other (Boolean model).
+// Voids placed without regard to each other (Boolean model). Also in matching_voids.cpp.
 
 #include "packing.hpp"
 

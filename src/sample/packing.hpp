@@ -1,6 +1,6 @@
 #pragma once
 // Voids that keep their distance: random sequential addition, and where that ends, relaxation of
-// soft voids followed by random moves.
+// soft voids followed by random moves. Also in relax.cpp.
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 
-#include "dataset_names.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
@@ -59,59 +58,6 @@ void check_domain(const Scene& scene, Report& report) {
                   report);
     }
   }
-}
-
-void check_behind(const Scene& scene, const Side& side, const std::string& path, Report& report) {
-  if (side.behind.empty() || has_problem(report, path)) return;
-  const std::string found = "found \"" + side.behind + "\", allowed ";
-  if (!side_law(side.kind).lets_out) {
-    add_problem(path, found + "only with kind = \"free\"", report);
-  } else if (std::none_of(scene.materials.begin(), scene.materials.end(),
-                          [&](const MaterialParameters& m) { return m.name == side.behind; })) {
-    add_problem(path, found + "the name of a [[material]]", report);
-  } else if (scene.sample.kind == SampleKind::none || may_have_contact(scene)) {
-    add_problem(path, found + "only behind a [sample] of one grain, to whose ends it is bonded",
-                report);
-  }
-}
-
-void check_side(const Side& side, const std::string& path, Report& report) {
-  if (side_law(side.kind).drives) return;
-  if (side.velocity != 0.0) {
-    add_problem(path + ".velocity",
-                "found " + plain_number(side.velocity) + " m/s, allowed only with kind = \"wall\"",
-                report);
-  }
-  if (side.friction != 0.0) {
-    add_problem(path + ".friction",
-                "found " + plain_number(side.friction) + ", allowed only with kind = \"wall\"",
-                report);
-  }
-}
-
-/// The background grid rides with a moving wall, so the other side may not stay behind.
-void check_boundary(const Scene& scene, Report& report) {
-  const Side& low = scene.boundary.low;
-  const Side& high = scene.boundary.high;
-  check_side(low, "boundary.low", report);
-  check_side(high, "boundary.high", report);
-  check_behind(scene, low, "boundary.low.behind", report);
-  check_behind(scene, high, "boundary.high.behind", report);
-  if (!good(report, {"boundary.low", "boundary.high"})) return;
-  const bool low_moves = low.velocity != 0.0;
-  const bool high_moves = high.velocity != 0.0;
-  if (!low_moves && !high_moves) return;
-  const Side& moving = low_moves ? low : high;
-  const Side& other = low_moves ? high : low;
-  if (!side_law(other.kind).mirrors) return;
-  if (side_law(other.kind).drives && other.velocity == moving.velocity) return;
-  const std::string found = side_law(other.kind).drives
-                                ? "a wall at " + plain_number(other.velocity) + " m/s"
-                                : "a symmetry plane";
-  add_problem(low_moves ? "boundary.high" : "boundary.low",
-              "found " + found + " opposite to a moving wall, allowed \"free\" or a wall at " +
-                  plain_number(moving.velocity) + " m/s too",
-              report);
 }
 
 void check_voids_of_sample(const Sample& sample, Report& report) {

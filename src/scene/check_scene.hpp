@@ -1,5 +1,7 @@
 #pragma once
 // What must hold between the keys of a scene.
+// Also in check_boundary.cpp, check_grains.cpp, check_materials.cpp, check_probes.cpp,
+// check_scheme.cpp.
 
 #include "poreshock/scene/scene.hpp"
 #include "report.hpp"
@@ -11,6 +13,9 @@ void resolve(Scene& scene, const Report& report);
 
 /// Adds every contradiction between keys to the report; keys that have a problem are left out.
 void check_scene(const Scene& scene, Report& report);
+
+/// The part of it about the two ends of the domain.
+void check_boundary(const Scene& scene, Report& report);
 
 /// The part of it about materials.
 void check_materials(const Scene& scene, Report& report);

@@ -1,5 +1,6 @@
 #pragma once
 // Reads the keys of one TOML table, checks each against its rule and remembers which keys exist.
+// Also in toml_lists.cpp.
 
 #include <toml++/toml.h>
 

@@ -1,11 +1,6 @@
-#include "end_surfaces.hpp"
+#include "poreshock/solver/end_surfaces.hpp"
 
-#include <algorithm>
-#include <optional>
-
-#include "poreshock/physics/transmit.hpp"
 #include "poreshock/sample/fill.hpp"
-#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/transfer/sweep.hpp"
 
 namespace poreshock {
@@ -22,46 +17,51 @@ std::optional<Backing> backing_of(const Scene& scene, const Side& side) {
 
 }  // namespace
 
-template <int Dim>
-void sum_ends(Simulation<Dim>& sim) {
-  const Scene& scene = sim.scene;
+EndSurfaces find_ends(const Scene& scene) {
+  EndSurfaces ends;
+  const auto dimension = static_cast<std::size_t>(scene.dimension);
   const int per_cell = scene.sample.particles_per_cell;
-  std::int64_t layer = 1;
-  double area = 1.0;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    layer *= static_cast<std::int64_t>(scene.domain.cells[a]) * per_cell;
-    area *= scene.domain.cell / per_cell;
+  for (std::size_t a = 0; a + 1 < dimension; ++a) {
+    ends.layer *= static_cast<std::int64_t>(scene.domain.cells[a]) * per_cell;
+    ends.area *= scene.domain.cell / per_cell;
   }
-  const std::optional<Backing> low = backing_of(scene, scene.boundary.low);
-  const std::optional<Backing> high = backing_of(scene, scene.boundary.high);
-  const std::int64_t top = sample_layers(scene) - 1;
-  const double rest = scene.loading.frame[Dim - 1] - scene.loading.velocity;
-  with_shape(scene.transfer, [&]<class Spline>(const Spline& spline) {
+  ends.low = backing_of(scene, scene.boundary.low);
+  ends.high = backing_of(scene, scene.boundary.high);
+  ends.top = sample_layers(scene) - 1;
+  ends.rest = scene.loading.frame[dimension - 1] - scene.loading.velocity;
+  return ends;
+}
+
+template <int Dim>
+void sum_ends(const Transfer& transfer, const Particles<Dim>& particles, const CellOrder& cells,
+              EndSurfaces& ends) {
+  const double cell = ends.forces->shape().cell;
+  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
     scatter<Dim>(
-        spline, sim.particles, sim.cells,
+        spline, particles, cells,
         [&](std::uint32_t p, const Stencil<Dim, Spline>& stencil, Lanes* sums) {
-          const std::int64_t at = sim.particles.id[p] / layer;
-          const double speed = sim.particles.velocity[Dim - 1][p] - rest;
-          const bool below = low && at == 0, above = high && at == top;
+          const std::int64_t at = particles.id[p] / ends.layer;
+          const double speed = particles.velocity[Dim - 1][p] - ends.rest;
+          const bool below = ends.low && at == 0, above = ends.high && at == ends.top;
           if (!below && !above) return;
           // The end lies half the thickness of the particle beyond its place.
-          const double thickness = sim.particles.mass[p] / (sim.particles.density[p] * area);
-          const double beyond = 0.5 * thickness / scene.domain.cell;
+          const double thickness = particles.mass[p] / (particles.density[p] * ends.area);
+          const double beyond = 0.5 * thickness / cell;
           const auto push = [&](double force, double outward) {
             for (int n = 0; n < stencil_nodes<Dim, Spline>; ++n) {
               const double slope = node_slope(stencil, n, Dim - 1);
               sums[n][end_force] += force * (node_weight(stencil, n) + outward * beyond * slope);
             }
           };
-          if (below) push(area * backing_stress(*low, -speed), -1.0);
-          if (above) push(-area * backing_stress(*high, speed), 1.0);
+          if (below) push(ends.area * backing_stress(*ends.low, -speed), -1.0);
+          if (above) push(-ends.area * backing_stress(*ends.high, speed), 1.0);
         },
-        *sim.ends);
+        *ends.forces);
   });
-  sim.ends->exchange();
+  ends.forces->exchange();
 }
 
-template void sum_ends<2>(Simulation<2>&);
-template void sum_ends<3>(Simulation<3>&);
+template void sum_ends<2>(const Transfer&, const Particles<2>&, const CellOrder&, EndSurfaces&);
+template void sum_ends<3>(const Transfer&, const Particles<3>&, const CellOrder&, EndSurfaces&);
 
 }  // namespace poreshock

@@ -92,13 +92,13 @@ void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
     release_fields(sim.grain_fields);
     sim.grid.reset();
     sim.heat.reset();
-    sim.ends.reset();
+    sim.ends.forces.reset();
     sim.grid = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
     if (conducts_heat(sim.scene)) {
       sim.heat = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
     }
     if (has_ends(sim.scene)) {
-      sim.ends = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
+      sim.ends.forces = std::make_unique<SlabGrid>(shape, starts, sim.communicator);
     }
     std::vector<int> destination(sim.particles.size());
     for (std::size_t p = 0; p < sim.particles.size(); ++p) {

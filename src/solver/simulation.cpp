@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "end_surfaces.hpp"
 #include "poreshock/physics/boundary.hpp"
 #include "poreshock/physics/momentum.hpp"
 #include "poreshock/physics/transmit.hpp"
@@ -36,6 +35,18 @@ void for_each_chunk(const CellOrder& cells, const SlabGrid& grid, Visit&& visit)
   }
 }
 
+/// Stiffness of a particle alone in its cell, per axis and squared cell: its gradient sees S, the
+/// most that slope^2/weight add up to, and its affine part, which remembers the motion, moves by
+/// 1/D at once, so that 4/dt^2 is 2 S - 1/D. Without affine modes nothing remembers, and time.cfl
+/// bounds the step alone.
+double lone_stiffness(const Transfer& transfer) {
+  if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
+  return of_shape(transfer.shape, []<class Shape>(const Shape&) {
+    if constexpr (has_inertia<Shape>) return 2.0 * Shape::stiffness - Shape::inverse_inertia;
+    return 0.0;
+  });
+}
+
 template <int Dim>
 ParticleMotion<Dim> particle_motion(double dt, const Simulation<Dim>& sim) {
   return {dt,
@@ -48,8 +59,9 @@ ParticleMotion<Dim> particle_motion(double dt, const Simulation<Dim>& sim) {
 
 template <int Dim>
 void conduct(double dt, Simulation<Dim>& sim) {
-  conduct_heat(sim.materials, sim.scene.thermal, sim.scene.transfer.shape, sim.cells, dt,
-               sim.ledger.nodes.inverse_energy_quantum, *sim.heat, sim.heat_flow, sim.particles,
+  const HeatSettings settings = {sim.scene.thermal, sim.scene.transfer.shape, dt,
+                                 sim.ledger.nodes.inverse_energy_quantum};
+  conduct_heat(sim.materials, settings, sim.cells, *sim.heat, sim.heat_flow, sim.particles,
                sim.ledger.conduction);
 }
 
@@ -67,29 +79,41 @@ void close_step(StepReport report, Simulation<Dim>& sim) {
 }  // namespace
 
 template <int Dim>
-void advance(Simulation<Dim>& sim, double dt) {
+StressSettings<Dim> stress_settings(const Simulation<Dim>& sim) {
   const Scene& scene = sim.scene;
-  const Transfer& transfer = scene.transfer;
+  return {scene.thermal,
+          scene.viscosity,
+          scene.domain.cell,
+          scene.time.cfl,
+          lone_stiffness(scene.transfer),
+          grid_velocity<Dim>(sim.grid->shape()),
+          sim.ledger.nodes.inverse_energy_quantum};
+}
+
+template <int Dim>
+void advance(Simulation<Dim>& sim, double dt) {
+  const Transfer& transfer = sim.scene.transfer;
   const ParticleMotion<Dim> motion = particle_motion(dt, sim);
+  const StressSettings<Dim> settings = stress_settings(sim);
   Particles<Dim>& particles = sim.particles;
   NodeLedger& ledger = sim.ledger.nodes;
+  SlabGrid& grid = *sim.grid;
   const auto in = [&](PhaseName name, auto&& run) { timed(sim.phases, name, run); };
 
-  in(PhaseName::sort, [&] { sort_particles(sim.clock.step, *sim.grid, particles, sim.cells); });
-  sim.cells.awake = awake_around(sim.clock.disturbed, sim.grid->shape());
+  in(PhaseName::sort, [&] { sort_particles(sim.clock.step, grid, particles, sim.cells); });
+  sim.cells.awake = awake_around(sim.clock.disturbed, grid.shape());
   split_by_colour(sim);
   // Now density, energy and position belong together and the sort holds; the stress update at the
   // end sees the heat in the energy that pressure follows from.
   if (sim.heat) in(PhaseName::conduction, [&] { conduct(dt, sim); });
-  SlabGrid& grid = *sim.grid;
   in(PhaseName::particles_to_grid,
      [&] { particles_to_grid(particles, sim.cells, transfer, grid); });
   in(PhaseName::exchange, [&] { grid.exchange(); });
-  if (sim.ends) sum_ends(sim);
+  if (sim.ends.forces) sum_ends(transfer, particles, sim.cells, sim.ends);
   const auto momentum = [&] { integrate_momentum<Dim>(sim.body_force, dt, grid); };
   const auto boundaries = [&] {
-    if (sim.ends) push_ends<Dim>(*sim.ends, dt, grid, ledger);
-    apply_boundaries<Dim>(scene.boundary, motion.grid_velocity, grid, ledger);
+    if (sim.ends.forces) push_ends<Dim>(*sim.ends.forces, dt, grid, ledger);
+    apply_boundaries<Dim>(sim.scene.boundary, motion.grid_velocity, grid, ledger);
     add_body_work<Dim>(sim.body_force, dt, grid, ledger);
   };
   move_nodes<Dim>(dt, momentum, boundaries, sim);
@@ -97,11 +121,11 @@ void advance(Simulation<Dim>& sim, double dt) {
   in(PhaseName::grid_update, [&] { prepare_gather<Dim>(motion.lost, grid); });
   for_each_chunk(sim.cells, grid, [&](RowRange rows, const auto& places) {
     in(PhaseName::grid_to_particles, [&] {
-      grid_to_particles(grid, sim.cells, rows, transfer, motion, particles, sim.step_data,
-                        report.transfer);
+      report.transfer +=
+          grid_to_particles(grid, sim.cells, rows, transfer, motion, particles, sim.step_data);
     });
     in(PhaseName::stress, [&] {
-      update_stress<Dim>(sim.materials, sim.stress_settings, sim.step_data, dt, places, particles,
+      update_stress<Dim>(sim.materials, settings, sim.step_data, dt, places, particles,
                          report.stress);
       if (particles.options.facing) turn_facing<Dim>(sim.step_data.gradient, dt, places, particles);
     });
@@ -110,6 +134,8 @@ void advance(Simulation<Dim>& sim, double dt) {
   close_step(report, sim);
 }
 
+template StressSettings<2> stress_settings<2>(const Simulation<2>&);
+template StressSettings<3> stress_settings<3>(const Simulation<3>&);
 template void advance<2>(Simulation<2>&, double);
 template void advance<3>(Simulation<3>&, double);
 

@@ -1,3 +1,5 @@
+#include "poreshock/solver/start.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -6,10 +8,8 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/scene/particle_options.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/check_state.hpp"
 #include "poreshock/solver/ownership.hpp"
-#include "poreshock/solver/simulation.hpp"
 #include "poreshock/solver/sleep.hpp"
 #include "stress_report.hpp"
 
@@ -17,23 +17,11 @@ namespace poreshock {
 
 namespace {
 
-/// Stiffness of a particle alone in its cell, per axis and squared cell: its gradient sees S, the
-/// most that slope^2/weight add up to, and its affine part, which remembers the motion, moves by
-/// 1/D at once, so that 4/dt^2 is 2 S - 1/D. Without affine modes nothing remembers, and time.cfl
-/// bounds the step alone.
-double lone_stiffness(const Transfer& transfer) {
-  if (scheme_of(transfer.velocity).modes == Modes::constant) return 0.0;
-  return of_shape(transfer.shape, []<class Shape>(const Shape&) {
-    if constexpr (has_inertia<Shape>) return 2.0 * Shape::stiffness - Shape::inverse_inertia;
-    return 0.0;
-  });
-}
-
 template <int Dim>
 Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim;
   // First of all: it refuses a grid that PETSc cannot count.
-  const Vector<Dim> velocity = grid_velocity<Dim>(make_grid_shape(scene));
+  static_cast<void>(make_grid_shape(scene));
   sim.scene = scene;
   sim.scene_text = write_scene(scene);
   sim.communicator = communicator;
@@ -42,12 +30,7 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
     sim.sound_speed = std::max(sim.sound_speed, longitudinal_sound_speed(sim.materials.back()));
   }
   sim.particles.options = particle_options(scene);
-  sim.stress_settings.thermal = scene.thermal;
-  sim.stress_settings.viscosity = scene.viscosity;
-  sim.stress_settings.cell = scene.domain.cell;
-  sim.stress_settings.cfl = scene.time.cfl;
-  sim.stress_settings.stiffness = lone_stiffness(scene.transfer);
-  sim.stress_settings.grid_velocity = velocity;
+  if (has_ends(scene)) sim.ends = find_ends(scene);
   for (int a = 0; a < Dim; ++a) sim.body_force[a] = scene.body_force[a];
   sim.conduction_limit =
       conducts_heat(scene)
@@ -80,9 +63,8 @@ Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   }
   release_spare(sim.particles);
   sim.ledger = make_ledger<Dim>(scene, sim.materials, sim.particles, communicator);
-  sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   StepReport first;
-  initialise_stress<Dim>(sim.materials, sim.stress_settings, sim.particles, first.stress);
+  initialise_stress<Dim>(sim.materials, stress_settings(sim), sim.particles, first.stress);
   take_report(first, sim.conduction_limit, sim.clock, sim.ledger);
   sim.clock.disturbed = disturbed_rows(scene, sim.materials, sim.grid->shape(), sim.particles);
   agree_on_step(false, sim.clock, communicator);
@@ -115,7 +97,6 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   sim.ledger.row_time = std::bit_cast<double>(state.integers.at(4));
   restore({state.integers.begin() + 5, state.integers.end()}, rank(communicator) == 0, sim.ledger);
   sim.ledger.first_total = state.first_total;
-  sim.stress_settings.inverse_energy_quantum = sim.ledger.nodes.inverse_energy_quantum;
   find_grains(sim);
   distribute(sim);
   sim.clock.disturbed = disturbed_rows(scene, sim.materials, sim.grid->shape(), sim.particles);

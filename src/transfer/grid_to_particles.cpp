@@ -172,10 +172,11 @@ inline void move_group(const GroupMoments<Dim, M>& m, double cell,
 
 // Flattened: a call per value would cost more than the arithmetic.
 template <int Dim, Modes M, Keeps Kept, class Spline>
-[[gnu::flatten]] void sweep(const Spline& spline, const SlabGrid& grid, const CellOrder& cells,
-                            RowRange rows, const ParticleMotion<Dim>& motion,
-                            Particles<Dim>& particles, StepData<Dim>& step,
-                            TransferReport& report) {
+[[gnu::flatten]] TransferReport sweep(const Spline& spline, const SlabGrid& grid,
+                                      const CellOrder& cells, RowRange rows,
+                                      const ParticleMotion<Dim>& motion, Particles<Dim>& particles,
+                                      StepData<Dim>& step) {
+  TransferReport report;
   const double cell = grid.shape().cell;
   const double inverse_cell = 1.0 / cell;
   std::array<Moments<Dim, M, shows_jumps<Spline>>, lane_count> pending;
@@ -206,9 +207,17 @@ template <int Dim, Modes M, Keeps Kept, class Spline>
         if (++group.count == lane_count) finish_group();
       });
   if (group.count > 0) finish_group();
+  return report;
 }
 
 }  // namespace
+
+TransferReport& TransferReport::operator+=(const TransferReport& other) {
+  heat += other.heat;
+  negative += other.negative;
+  shortened += other.shortened;
+  return *this;
+}
 
 double lost_share(const Transfer& transfer, double sound_speed, double cell, double dt) {
   if (scheme_of(transfer.velocity).keeps == Keeps::nothing) return 1.0;
@@ -234,22 +243,24 @@ void prepare_gather(double lost, SlabGrid& grid) {
 }
 
 template <int Dim>
-void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, RowRange rows,
-                       const Transfer& transfer, const ParticleMotion<Dim>& how,
-                       Particles<Dim>& particles, StepData<Dim>& step, TransferReport& report) {
+TransferReport grid_to_particles(const SlabGrid& grid, const CellOrder& cells, RowRange rows,
+                                 const Transfer& transfer, const ParticleMotion<Dim>& how,
+                                 Particles<Dim>& particles, StepData<Dim>& step) {
+  TransferReport report;
   resize_ordered(first_place(cells, grid, rows.last) - first_place(cells, grid, rows.first), step);
   with_scheme(transfer, [&]<Modes M, Keeps Kept, class Spline>(const Spline& spline) {
-    sweep<Dim, M, Kept>(spline, grid, cells, rows, how, particles, step, report);
+    report = sweep<Dim, M, Kept>(spline, grid, cells, rows, how, particles, step);
   });
+  return report;
 }
 
 template void prepare_gather<2>(double, SlabGrid&);
 template void prepare_gather<3>(double, SlabGrid&);
-template void grid_to_particles<2>(const SlabGrid&, const CellOrder&, RowRange, const Transfer&,
-                                   const ParticleMotion<2>&, Particles<2>&, StepData<2>&,
-                                   TransferReport&);
-template void grid_to_particles<3>(const SlabGrid&, const CellOrder&, RowRange, const Transfer&,
-                                   const ParticleMotion<3>&, Particles<3>&, StepData<3>&,
-                                   TransferReport&);
+template TransferReport grid_to_particles<2>(const SlabGrid&, const CellOrder&, RowRange,
+                                             const Transfer&, const ParticleMotion<2>&,
+                                             Particles<2>&, StepData<2>&);
+template TransferReport grid_to_particles<3>(const SlabGrid&, const CellOrder&, RowRange,
+                                             const Transfer&, const ParticleMotion<3>&,
+                                             Particles<3>&, StepData<3>&);
 
 }  // namespace poreshock

@@ -70,7 +70,7 @@ double lost_in(double dt, const Simulation<2>& sim) {
 
 reference::PlainBody plain(double dt, const Simulation<2>& sim) {
   return reference::plain_body(sim.particles, sim.grid->shape(), sim.materials[0],
-                               sim.stress_settings, lost_in(dt, sim));
+                               stress_settings(sim), lost_in(dt, sim));
 }
 
 /// Largest difference of one step of the program and one of the plain kind, each column over its
@@ -197,13 +197,13 @@ void gather_and_stress(benchmark::State& state) {
     for (RowRange rows = {all.first, all.first + 4}; rows.first < all.last;
          rows = {rows.last, rows.last + 4}) {
       rows.last = std::min(rows.last, all.last);
-      grid_to_particles<2>(*sim.grid, sim.cells, rows, sim.scene.transfer, motion, sim.particles,
-                           sim.step_data, transfer);
+      transfer += grid_to_particles<2>(*sim.grid, sim.cells, rows, sim.scene.transfer, motion,
+                                       sim.particles, sim.step_data);
       if (!stress) continue;
       const std::uint32_t first = first_place(sim.cells, *sim.grid, rows.first);
       const std::span places(sim.cells.order.data() + first,
                              first_place(sim.cells, *sim.grid, rows.last) - first);
-      update_stress<2>(sim.materials, sim.stress_settings, sim.step_data, time_step, places,
+      update_stress<2>(sim.materials, stress_settings(sim), sim.step_data, time_step, places,
                        sim.particles, report);
     }
   }

@@ -6,7 +6,7 @@
 #include "poreshock/files/block_hash.hpp"
 #include "poreshock/output/checkpoint.hpp"
 #include "poreshock/scene/read_scene.hpp"
-#include "poreshock/solver/simulation.hpp"
+#include "poreshock/solver/start.hpp"
 #include "support/runs.hpp"
 
 namespace poreshock {

@@ -70,9 +70,9 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& heat, PorousSample<Dim>
   motion.inverse_energy_quantum = s.settings.inverse_energy_quantum;
   sort_particles<Dim>(grid, n, s);
   if (s.conducts) {
-    conduct_heat<Dim>(s.materials, s.scene.thermal, transfer.shape, s.cells, dt,
-                      s.settings.inverse_energy_quantum, heat, s.heat_flow, s.particles,
-                      s.conduction);
+    conduct_heat<Dim>(s.materials,
+                      {s.scene.thermal, transfer.shape, dt, s.settings.inverse_energy_quantum},
+                      s.cells, heat, s.heat_flow, s.particles, s.conduction);
   }
   particles_to_grid(s.particles, s.cells, transfer, grid);
   grid.exchange();
@@ -80,8 +80,8 @@ void advance(double dt, int n, SlabGrid& grid, SlabGrid& heat, PorousSample<Dim>
   apply_boundaries<Dim>(s.scene.boundary, s.settings.grid_velocity, grid, s.ledger);
   add_body_work<Dim>(body_force, dt, grid, s.ledger);
   prepare_gather<Dim>(motion.lost, grid);
-  grid_to_particles(grid, s.cells, all_rows(grid), transfer, motion, s.particles, s.step,
-                    s.transfer);
+  s.transfer +=
+      grid_to_particles(grid, s.cells, all_rows(grid), transfer, motion, s.particles, s.step);
   update_stress(s.materials, s.settings, s.step, dt, s.cells.order, s.particles, s.report);
   confine<Dim>(s);
 }

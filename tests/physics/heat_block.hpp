@@ -69,8 +69,8 @@ double conduct(const std::vector<MaterialParameters>& all, Thermal thermal, Shap
   HeatFlow<Dim> scratch;
   Int128 gained = 0;
   for (int n = 0; n < steps; ++n) {
-    conduct_heat<Dim>(materials, thermal, shape, slab.cells, dt, 1.0 / quantum, *slab.grid, scratch,
-                      slab.particles, gained);
+    conduct_heat<Dim>(materials, {thermal, shape, dt, 1.0 / quantum}, slab.cells, *slab.grid,
+                      scratch, slab.particles, gained);
   }
   std::vector<Int128> sums = {gained};
   sum(sums, slab.grid->communicator());

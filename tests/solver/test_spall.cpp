@@ -57,7 +57,7 @@ Simulation<2> strip_with_wave(double cell, double spall) {
     p.internal_energy[i] = 0.5 * P * eta / density;
   }
   StressReport report;
-  initialise_stress<2>(sim.materials, sim.stress_settings, p, report);
+  initialise_stress<2>(sim.materials, stress_settings(sim), p, report);
   return sim;
 }
 

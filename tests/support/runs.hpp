@@ -9,7 +9,7 @@
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/scene/transfer_scheme.hpp"
 #include "poreshock/solver/ownership.hpp"
-#include "poreshock/solver/simulation.hpp"
+#include "poreshock/solver/start.hpp"
 
 namespace poreshock::test {
 

@@ -108,8 +108,10 @@ class Layers(unittest.TestCase):
         self.assertEqual(self.check(own | {"src/grid/rows.cpp": text}), [])
         self.assertEqual(self.check({"src/grid/rows.hpp": "", "src/grid/rows.cpp": '#include "rows.hpp"\n'}), [])
         self.assertEqual(self.check(own | {"src/grid/more_rows.cpp": text}), [
-            "src/grid/more_rows.cpp:1: has no header; include/poreshock/grid/more_rows.hpp or src/grid/more_rows.hpp "
-            "declares what it defines"])
+            "src/grid/more_rows.cpp:1: has no header, include/poreshock/grid/more_rows.hpp or src/grid/more_rows.hpp, and "
+            "no header of its layer names it"])
+        own["include/poreshock/grid/rows.hpp"] = "// Rows. Also in more_rows.cpp.\n"
+        self.assertEqual(self.check(own | {"src/grid/more_rows.cpp": text}), [])
 
     def test_what_stands_may_only_shrink(self):
         path = "include/poreshock/grid/rows.hpp"

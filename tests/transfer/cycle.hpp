@@ -38,8 +38,8 @@ NodeGain<Dim> transfer_cycle(const Cloud<Dim>& cloud, const ParticleMotion<Dim>&
   MPI_Allreduce(MPI_IN_PLACE, &gain.work, 1, MPI_DOUBLE, MPI_SUM, communicator);
   MPI_Allreduce(MPI_IN_PLACE, gain.impulse.data(), Dim, MPI_DOUBLE, MPI_SUM, communicator);
   prepare_gather<Dim>(motion.lost, *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid), cloud.transfer, motion,
-                         slab.particles, slab.step, slab.report);
+  slab.report += grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid),
+                                        cloud.transfer, motion, slab.particles, slab.step);
   store_like_particles(slab);
   return gain;
 }

@@ -130,8 +130,8 @@ void compare_gather(const Choice& choice, double lost) {
   how.grid_velocity[Dim - 1] = -300.0;
   how.inverse_energy_quantum = 0x1p60;
   prepare_gather<Dim>(lost, *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid), cloud.transfer, how,
-                         slab.particles, slab.step, slab.report);
+  slab.report += grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid),
+                                        cloud.transfer, how, slab.particles, slab.step);
   store_like_particles(slab);
   Comparison worst;
   double heat = 0.0, largest_heat = 0.0;
@@ -207,8 +207,8 @@ void compare_shares(VelocityTransfer velocity, bool periodic) {
   ParticleMotion<Dim> how;
   how.limited = true;
   prepare_gather<Dim>(1.0, *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid), cloud.transfer, how,
-                         slab.particles, slab.step, slab.report);
+  slab.report += grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid),
+                                        cloud.transfer, how, slab.particles, slab.step);
   store_like_particles(slab);
   int between = 0;
   for (std::size_t local = 0; local < slab.particles.size(); ++local) {

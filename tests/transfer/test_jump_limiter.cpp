@@ -33,8 +33,8 @@ Slab<Dim> gathered(const Cloud<Dim>& cloud, Velocity&& velocity) {
   ParticleMotion<Dim> motion;
   motion.limited = true;
   prepare_gather<Dim>(1.0, *slab.grid);
-  grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid), cloud.transfer, motion,
-                         slab.particles, slab.step, slab.report);
+  slab.report += grid_to_particles<Dim>(*slab.grid, slab.cells, all_rows(*slab.grid),
+                                        cloud.transfer, motion, slab.particles, slab.step);
   store_like_particles(slab);
   return slab;
 }

@@ -61,7 +61,7 @@ end = 1.0
     sim.particles.density[p] *= factor;
   }
   StressReport report;
-  initialise_stress<2>(sim.materials, sim.stress_settings, sim.particles, report);
+  initialise_stress<2>(sim.materials, stress_settings(sim), sim.particles, report);
   sim.clock.limit = report.dt_limit;
   return sim;
 }

@@ -75,7 +75,7 @@ void set_stress(double residual, Simulation<2>& sim) {
                            reference_point(m.eos, 1.0 - m.eos.density / q.density[p]).energy;
   }
   StressReport report;
-  initialise_stress<2>(sim.materials, sim.stress_settings, q, report);
+  initialise_stress<2>(sim.materials, stress_settings(sim), q, report);
   sim.clock.limit = report.dt_limit;
 }
 

@@ -213,7 +213,7 @@ TEST(Vortex, OneParticleInSimpleShearFollowsTheJaumannRate) {
   double error = 0.0, objective = 0.0;
   for (int k = 1; k <= steps; ++k) {
     StressReport report;
-    update_stress(sim.materials, sim.stress_settings, step, dt, places, sim.particles, report);
+    update_stress(sim.materials, stress_settings(sim), step, dt, places, sim.particles, report);
     const double kappa = rate * dt * k;
     const double xx = sim.particles.deviator[0][0] / shear;
     const double xy = sim.particles.deviator[3][0] / shear;

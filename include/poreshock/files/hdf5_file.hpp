@@ -2,7 +2,7 @@
 // One HDF5 file shared by all ranks. Writing: everything is declared first, rank 0 makes the file
 // under a temporary name and takes its whole disk space, all ranks write their rows, finish() seals
 // the file (block_hash.hpp) and renames it. A full disk is found before any rank writes, and a
-// killed run leaves no broken file under a final name.
+// killed run leaves no broken file under a final name. Also in hdf5_catalogue.cpp, hdf5_create.cpp.
 
 #include <mpi.h>
 

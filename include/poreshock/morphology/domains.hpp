@@ -1,6 +1,6 @@
 #pragma once
 // Connected domains of a thresholded map: how many there are at every threshold, and what each hot
-// one is like at one threshold.
+// one is like at one threshold. Also in count_domains.cpp, hot_spots.cpp.
 //
 // White (hot) pixels are material pixels with value >= threshold, black (cold) ones are the other
 // material pixels, NaN included. Void pixels belong to no domain. White and black join by dual

@@ -3,6 +3,7 @@
 // functionals that follow from them. Conventions: white means value >= threshold, white joins over
 // corners (8 neighbours in 2-D, 26 in 3-D), void pixels are black and not part of the material, N
 // is the number of material pixels. Outside the map everything is black. A NaN value is black.
+// Also in count_pixels.cpp, count_voxels.cpp.
 //
 // Max rule: a cell (edge, vertex, diagonal) is white when one of the pixels that share it is white.
 // Min rule: a cell is white when all of them are. The rank of a pixel is the number of thresholds

@@ -4,7 +4,7 @@
 //
 // The same particles give the same bits on any number of ranks and in any order: every contribution
 // is rounded to an integer that depends on its particle and the largest value of all, and integers
-// are added.
+// are added. Also in deposit.cpp.
 
 #include <mpi.h>
 #include <petscdmda.h>

@@ -1,5 +1,5 @@
 #pragma once
-// Ways to treat void pixels in the Euler characteristic.
+// Ways to treat void pixels in the Euler characteristic: fill_voids.cpp, euler_density.cpp.
 
 #include <mpi.h>
 

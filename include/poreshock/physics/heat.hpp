@@ -19,6 +19,14 @@ struct HeatLane {
   static constexpr int temperature = 1;  ///< K, energy over capacity
 };
 
+/// What conduct_heat needs besides particles and nodes.
+struct HeatSettings {
+  Thermal thermal = Thermal::conserving;
+  ShapeFunction shape = ShapeFunction::cubic;
+  double dt = 0.0;  ///< s
+  double inverse_energy_quantum = 1.0;
+};
+
 /// Per-particle scratch of conduct_heat, not part of the state.
 template <int Dim>
 struct HeatFlow {
@@ -36,9 +44,9 @@ struct HeatFlow {
 /// quanta to `gained`. Positions must be those that `cells` was sorted by. Collective (two
 /// exchanges of `grid`, whose nodes are scratch).
 template <int Dim>
-void conduct_heat(const std::vector<Material>& materials, Thermal thermal, ShapeFunction shape,
-                  const CellOrder& cells, double dt, double inverse_quantum, SlabGrid& grid,
-                  HeatFlow<Dim>& scratch, Particles<Dim>& particles, Int128& gained);
+void conduct_heat(const std::vector<Material>& materials, const HeatSettings& settings,
+                  const CellOrder& cells, SlabGrid& grid, HeatFlow<Dim>& scratch,
+                  Particles<Dim>& particles, Int128& gained);
 
 /// Largest stable step of conduct_heat, s; infinite when nothing conducts. lambda = max a sum |grad
 /// N|^2/N bounds the rates of the first part for any arrangement of particles (Cauchy and Schwarz),

@@ -1,5 +1,5 @@
 #pragma once
-// Probes: which material they look at, and what they see.
+// Probes: which material they look at, and what they see. Also in probe_records.cpp.
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,7 @@
 #pragma once
 // From a scene to particles: void placement, then a regular lattice of particles kept where there
 // is solid. Everything is a pure function of the scene, the same on every rank.
+// Also in place_voids.cpp, void_fraction.cpp, body_warnings.cpp, sample_warnings.cpp.
 
 #include <mpi.h>
 

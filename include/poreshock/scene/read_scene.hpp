@@ -1,5 +1,5 @@
 #pragma once
-// Reading, checking and writing of scenes.
+// Reading, checking and writing of scenes. Also in write_scene.cpp.
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,7 @@
 #pragma once
 // Velocity fields of grains: one for each colour, so that grains that meet can slide and part. With
 // self-contact of a single grain: one for each quarter of the plane that its particles face.
+// Also in facing_fields.cpp.
 
 #include <memory>
 #include <optional>

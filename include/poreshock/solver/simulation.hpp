@@ -7,12 +7,12 @@
 
 #include "poreshock/core/phase.hpp"
 #include "poreshock/grid/slab_grid.hpp"
-#include "poreshock/output/checkpoint.hpp"
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
 #include "poreshock/physics/heat.hpp"
 #include "poreshock/physics/stress.hpp"
 #include "poreshock/sample/fill.hpp"
+#include "poreshock/solver/end_surfaces.hpp"
 #include "poreshock/solver/grain_fields.hpp"
 #include "poreshock/solver/ledger.hpp"
 #include "poreshock/solver/row_cost.hpp"
@@ -29,7 +29,6 @@ struct Simulation {
   std::string scene_text;  ///< resolved, as written to every file
   MPI_Comm communicator = MPI_COMM_NULL;
   std::vector<Material> materials;
-  StressSettings<Dim> stress_settings;
   double sound_speed = 0.0;  ///< m/s, the largest of the materials at rest, longitudinal
   Vector<Dim> body_force = Vector<Dim>::Zero();
   Particles<Dim> particles;
@@ -41,31 +40,22 @@ struct Simulation {
   GrainFields grain_fields;        ///< only used where grains of two colours exist
   std::unique_ptr<SlabGrid> heat;  ///< only with heat conduction
   HeatFlow<Dim> heat_flow;         ///< empty without heat conduction
-  std::unique_ptr<SlabGrid> ends;  ///< only with material behind an end of the sample
-  double conduction_limit = 0.0;   ///< s, infinite without heat conduction
+  EndSurfaces ends;
+  double conduction_limit = 0.0;  ///< s, infinite without heat conduction
   PhaseTable phases;
   WorkMeter work;
   SampleReport sample;
 };
 
-/// Makes the sample and distributes it over the ranks. Throws InputError. Collective.
+/// Settings of the stress update of a step.
 template <int Dim>
-Simulation<Dim> start(const Scene& scene, MPI_Comm communicator);
-
-/// Continues from a checkpoint file under `scene` (the checkpoint's own, but for output settings).
-/// Throws InputError. Collective.
-template <int Dim>
-Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm communicator);
+StressSettings<Dim> stress_settings(const Simulation<Dim>& sim);
 
 /// Advances the state by dt: heat conduction, particles to grid, momentum, boundaries, grid to
 /// particles, stress. Afterwards the clock holds the stable next step of this rank's particles.
 /// Collective.
 template <int Dim>
 void advance(Simulation<Dim>& sim, double dt);
-
-/// State of the run besides its particles, for a checkpoint. Collective.
-template <int Dim>
-RunState run_state(const Simulation<Dim>& sim);
 
 /// Displacement of the grid origin since the start, m.
 template <int Dim>

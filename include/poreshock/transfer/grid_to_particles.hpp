@@ -25,6 +25,8 @@ struct TransferReport {
   Int128 heat = 0;             ///< quanta
   std::int64_t negative = 0;   ///< particles whose heat was negative beyond rounding
   std::int64_t shortened = 0;  ///< particles whose modes beyond the velocity lost a tenth
+
+  TransferReport& operator+=(const TransferReport& other);
 };
 
 /// Replaces the mass lane of every node by |u' - u|^2/2 + lost u.u', the node's part of the heat of
@@ -38,9 +40,9 @@ void prepare_gather(double lost, SlabGrid& grid);
 /// viscous_quadratic are set. What the transfer loses of the kinetic energy of a particle is its
 /// heat. Not collective.
 template <int Dim>
-void grid_to_particles(const SlabGrid& grid, const CellOrder& cells, RowRange rows,
-                       const Transfer& transfer, const ParticleMotion<Dim>& how,
-                       Particles<Dim>& particles, StepData<Dim>& step, TransferReport& report);
+TransferReport grid_to_particles(const SlabGrid& grid, const CellOrder& cells, RowRange rows,
+                                 const Transfer& transfer, const ParticleMotion<Dim>& how,
+                                 Particles<Dim>& particles, StepData<Dim>& step);
 
 /// Share of its residual that a particle loses in a step: lambda = 1 - 1/(1 + beta c dt/cell), c
 /// the sound speed; 1 with the transfers that keep none.
