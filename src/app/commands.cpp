@@ -12,6 +12,7 @@
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/core/rank_zero.hpp"
 #include "poreshock/core/stop_signal.hpp"
+#include "poreshock/core/text.hpp"
 #include "poreshock/files/posix_file.hpp"
 #include "poreshock/output/checkpoint.hpp"
 #include "poreshock/output/folder.hpp"
@@ -91,16 +92,12 @@ void require_time_left(const Scene& scene, const CheckpointHeader& header,
                        const std::string& path) {
   constexpr double rounding = 1e-9;
   const TimeControl& limits = scene.time;
-  const auto number = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return std::string(text);
-  };
   const std::string advice =
       "; nothing was changed. Raise it, or name an earlier checkpoint with --restart FILE";
   if (limits.end < header.time * (1.0 - rounding)) {
-    throw InputError("time.end: found " + number(limits.end) + " s, allowed at least the time of " +
-                     path + ", " + number(header.time) + " s" + advice);
+    throw InputError("time.end: found " + significant<9>(limits.end) +
+                     " s, allowed at least the time of " + path + ", " +
+                     significant<9>(header.time) + " s" + advice);
   }
   if (limits.max_steps > 0 && limits.max_steps < header.step) {
     throw InputError("time.max_steps: found " + std::to_string(limits.max_steps) +

@@ -9,6 +9,7 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/core/text.hpp"
 #include "poreshock/morphology/similarity.hpp"
 #include "poreshock/output/comparison_file.hpp"
 #include "poreshock/output/morphology_file.hpp"
@@ -196,9 +197,7 @@ std::string similarity_text(double distance, double interpolation) {
   if (std::isnan(distance)) return "not measured";
   if (distance == 0.0) return "identical";
   if (distance <= interpolation * (1.0 + 1e-9)) return "alike";
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", similarity(distance));
-  return text;
+  return significant<6>(similarity(distance));
 }
 
 void print_interpolation(const Comparison& comparison, const ComparedRun& run) {

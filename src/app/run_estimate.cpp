@@ -9,18 +9,13 @@
 
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/core/text.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/solver/grain_fields.hpp"
 
 namespace poreshock {
 
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string whole_number(double value) {
   char text[64];
@@ -29,7 +24,7 @@ std::string whole_number(double value) {
 }
 
 std::string gigabytes(double bytes) {
-  return short_number(bytes * 1e-9) + " GB";
+  return significant<3>(bytes * 1e-9) + " GB";
 }
 
 /// Mean step of the motion. Behind a plane shock sound is about 1.2 times as fast as at rest and
@@ -85,7 +80,7 @@ std::string memory_sentence(const Scene& scene, double bytes, const Resources& r
   const double coarser = std::pow(bytes / resources.memory, 1.0 / scene.dimension);
   return "The run needs about " + gigabytes(bytes) + " of memory, here are " +
          gigabytes(resources.memory) + ". Set domain.cell to " +
-         short_number(scene.domain.cell * coarser) +
+         significant<3>(scene.domain.cell * coarser) +
          " m or more, lower sample.particles_per_cell, or start on more machines.";
 }
 
@@ -104,11 +99,11 @@ void warn_beat(const Scene& scene, const RunEstimate& estimate,
   const double step = std::min(estimate.mechanical_step, estimate.conduction_step);
   const double steps = steps_on_beats(scene, step);
   if (steps < noticed * estimate.free_steps || steps < estimate.free_steps + few) return;
-  warnings.push_back("output.beat = " + short_number(scene.output.beat) +
-                     " s sets the time step, which else were about " + short_number(step) +
+  warnings.push_back("output.beat = " + significant<3>(scene.output.beat) +
+                     " s sets the time step, which else were about " + significant<3>(step) +
                      " s: steps land on its multiples, and " + whole_number(steps) +
                      " of them reach time.end instead of " + whole_number(estimate.free_steps) +
-                     ". Set output.beat to " + short_number(10.0 * step) +
+                     ". Set output.beat to " + significant<3>(10.0 * step) +
                      " s or more; output.snapshot, history and the other cadences are whole "
                      "multiples of it.");
 }
@@ -121,27 +116,27 @@ void warn_conduction(const Scene& scene, const RunEstimate& estimate,
     const double length = diffusion_length(scene, m);
     if (!(length > 0.0)) continue;
     const std::string heat =
-        "Heat gets " + short_number(length) + " m far in " + m.name + " until the end, ";
+        "Heat gets " + significant<3>(length) + " m far in " + m.name + " until the end, ";
     const double cells = length / scene.domain.cell;
     const double diameters = length / (2.0 * scene.sample.void_radius);
     if (scene.conduction.on && cells < least_cells) {
-      warnings.push_back(heat + short_number(cells) +
+      warnings.push_back(heat + significant<3>(cells) +
                          " cells; below 2 its conduction is not resolved. Set domain.cell to " +
-                         short_number(length / least_cells) +
+                         significant<3>(length / least_cells) +
                          " m or less, or conduction.on = false.");
     }
     if (!scene.conduction.on && has_voids && diameters > least_diameters) {
       warnings.push_back(
-          heat + short_number(diameters) +
+          heat + significant<3>(diameters) +
           " void diameters, and does not flow: hot spots of that size stay too hot. "
           "Set conduction.on = true, or material.conductivity = 0 where it shall not.");
     }
   }
   const double times_smaller = estimate.mechanical_step / estimate.conduction_step;
   if (times_smaller > 2.0) {
-    warnings.push_back("Heat conduction makes the time step " + short_number(times_smaller) +
+    warnings.push_back("Heat conduction makes the time step " + significant<3>(times_smaller) +
                        " times smaller than the motion does. Set domain.cell to " +
-                       short_number(scene.domain.cell * times_smaller) +
+                       significant<3>(scene.domain.cell * times_smaller) +
                        " m, where the two are equal, or conduction.on = false.");
   }
 }
@@ -242,7 +237,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
   }
   if (estimate.disk > resources.disk) {
     warnings.push_back("The files of the run need about " + gigabytes(estimate.disk) + ", " +
-                       short_number(estimate.snapshots) + " snapshots of " +
+                       significant<3>(estimate.snapshots) + " snapshots of " +
                        gigabytes(estimate.snapshot_bytes) + " among them; this disk has " +
                        gigabytes(resources.disk) +
                        " left. Raise output.snapshot, name fewer output.fields, set "
@@ -251,11 +246,11 @@ std::vector<std::string> run_warnings(const Scene& scene, const RunEstimate& est
   if (estimate.seconds > day) {
     // In 2-D work goes with the third power of the cell, in 3-D with the fourth.
     const double coarser = std::pow(estimate.seconds / day, 1.0 / (scene.dimension + 1));
-    warnings.push_back("The run takes about " + short_number(estimate.seconds / day) + " days on " +
-                       std::to_string(resources.ranks) +
+    warnings.push_back("The run takes about " + significant<3>(estimate.seconds / day) +
+                       " days on " + std::to_string(resources.ranks) +
                        " ranks. Start it on more, end it earlier with time.end, or set domain.cell "
                        "to " +
-                       short_number(scene.domain.cell * coarser) + " m for one day.");
+                       significant<3>(scene.domain.cell * coarser) + " m for one day.");
   }
   return warnings;
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "first_impact.hpp"
 #include "poreshock/core/parallel.hpp"
+#include "poreshock/core/text.hpp"
 #include "poreshock/grid/grain_colours.hpp"
 #include "poreshock/scene/scene_warnings.hpp"
 
@@ -15,12 +15,6 @@ namespace {
 
 /// Steps in which nothing can have happened yet.
 constexpr double first_steps = 20.0;
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 template <int Dim>
 bool is_open(const Scene& scene, int axis, bool high) {
@@ -62,8 +56,8 @@ void warn_leaving(const Simulation<Dim>& sim, std::vector<std::string>& warnings
     const double share =
         100.0 * static_cast<double>(leaving[side]) / static_cast<double>(sim.sample.particles);
     const std::string name = side_name(static_cast<int>(side / 2), side % 2 == 1, Dim);
-    warnings.push_back(std::to_string(leaving[side]) + " particles (" + short_number(share) +
-                       " %) leave the domain within the first " + short_number(first_steps) +
+    warnings.push_back(std::to_string(leaving[side]) + " particles (" + significant<3>(share) +
+                       " %) leave the domain within the first " + significant<3>(first_steps) +
                        " steps, through the open side " + name + ". Set " +
                        name.substr(0, name.find(' ')) +
                        " = \"wall\" or \"symmetry\" if they shall hit it, turn their velocity, or "
@@ -79,10 +73,11 @@ void warn_nothing_hit(const Simulation<Dim>& sim, std::vector<std::string>& warn
   if (impact <= scene.time.end) return;
   const std::string late =
       std::isfinite(impact)
-          ? ": the first impact comes at " + short_number(impact) + " s. Raise time.end, or start "
+          ? ": the first impact comes at " + significant<3>(impact) +
+                " s. Raise time.end, or start "
           : ": no wall, symmetry plane or body lies in the way of what moves. Set boundary.low = "
             "\"wall\", give loading.velocity or body velocities that meet something, or start ";
-  warnings.push_back("Nothing is hit until time.end = " + short_number(scene.time.end) + " s" +
+  warnings.push_back("Nothing is hit until time.end = " + significant<3>(scene.time.end) + " s" +
                      late + "what shall collide closer together.");
 }
 

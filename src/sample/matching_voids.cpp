@@ -10,10 +10,10 @@ namespace {
 
 [[noreturn]] void throw_too_few(const Sample& sample, const Block& block) {
   const double each = ball_measure(sample.void_radius, block.dimension);
-  throw InputError("sample.porosity = " + short_number(sample.porosity) +
+  throw InputError("sample.porosity = " + significant<4>(sample.porosity) +
                    " asks for less than half a void: one void of radius " +
                    length_text(sample.void_radius) + " makes " +
-                   short_number(each / block_measure(block)) +
+                   significant<4>(each / block_measure(block)) +
                    " of the block. Lower sample.void_radius, raise sample.porosity, or place the "
                    "void with [[void]].");
 }

@@ -43,9 +43,9 @@ double fraction(const Draw& drawn, std::size_t count, double scale) {
 
 [[noreturn]] void throw_no_room(const Sample& sample, std::size_t count, double reached) {
   throw InputError(
-      "sample.porosity = " + short_number(sample.porosity) +
+      "sample.porosity = " + significant<4>(sample.porosity) +
       " cannot be reached with overlapping voids: " + std::to_string(count) + " voids of radius " +
-      length_text(sample.void_radius) + " fill " + short_number(reached) +
+      length_text(sample.void_radius) + " fill " + significant<4>(reached) +
       " of the block, because sample.keep_out = " + length_text(sample.keep_out) +
       " and the whole radius keep them away from its sides. Allowed is less. Lower "
       "sample.porosity, sample.keep_out or sample.void_radius, or raise sample.height.");

@@ -52,11 +52,11 @@ double inflate(Packing& packing) {
 [[noreturn]] void throw_jammed(const Sample& sample, const Packing& packing, double scale) {
   const double share =
       (1.0 - sample.porosity) * std::pow(scale, static_cast<double>(packing.block.dimension));
-  throw InputError("sample.porosity = " + short_number(sample.porosity) +
+  throw InputError("sample.porosity = " + significant<4>(sample.porosity) +
                    " cannot be packed: " + std::to_string(packing.voids.size()) +
                    " grains of median radius " + length_text(sample.grain_radius) +
                    " with sample.grain_gap = " + length_text(sample.grain_gap) +
-                   " jam at a void fraction of " + short_number(1.0 - share) +
+                   " jam at a void fraction of " + significant<4>(1.0 - share) +
                    ". Raise sample.porosity, lower sample.grain_gap, mix sizes with "
                    "sample.grain_spread, or use kind = \"voronoi_grains\".");
 }
@@ -73,7 +73,7 @@ Packing grain_packing(const Scene& scene, double share) {
       share * block_measure(block) / ball_measure(as_voids.void_radius, block.dimension);
   if (!(expected >= 1.0 && expected <= 1e7)) {
     throw InputError("sample.grain_radius = " + length_text(as_voids.void_radius) + " asks for " +
-                     short_number(expected) +
+                     significant<4>(expected) +
                      " grains in the sample block. Allowed are 1 to 1e7. Change "
                      "sample.grain_radius.");
   }

@@ -31,7 +31,7 @@ void require_room(const Sample& sample, const Block& block, double radius) {
 
 void check_sample(const Sample& sample, const Block& block) {
   if (!(sample.porosity >= 0.0 && sample.porosity < 1.0)) {
-    throw InputError("sample.porosity = " + short_number(sample.porosity) +
+    throw InputError("sample.porosity = " + significant<4>(sample.porosity) +
                      ". Allowed is a void fraction from 0 to below 1.");
   }
   if (!(sample.void_radius > 0.0)) {
@@ -42,13 +42,13 @@ void check_sample(const Sample& sample, const Block& block) {
       sample.porosity * block_measure(block) / ball_measure(sample.void_radius, block.dimension);
   if (expected > 1e7) {
     throw InputError("sample.void_radius = " + length_text(sample.void_radius) + " asks for " +
-                     short_number(expected) +
+                     significant<4>(expected) +
                      " voids. Allowed are at most 1e7. Raise sample.void_radius.");
   }
   const double most = block.dimension == 2 ? 0.65 : 0.95;
   if (sample.overlap && sample.porosity > most) {
-    throw InputError("sample.porosity = " + short_number(sample.porosity) +
-                     " with sample.overlap = true. Allowed is at most " + short_number(most) +
+    throw InputError("sample.porosity = " + significant<4>(sample.porosity) +
+                     " with sample.overlap = true. Allowed is at most " + significant<4>(most) +
                      " in " + std::to_string(block.dimension) +
                      "-D: a little above it the solid falls into pieces. Lower sample.porosity.");
   }
@@ -57,7 +57,7 @@ void check_sample(const Sample& sample, const Block& block) {
 std::string crowding_text(const Packing& packing) {
   const bool flat = packing.block.dimension == 2;
   std::string text = " With half the ligament around them they would take " +
-                     short_number(crowding(packing)) +
+                     significant<4>(crowding(packing)) +
                      " of the space between the keep-out layers; random arrangements of equal " +
                      (flat ? "discs end near 0.84." : "balls end near 0.64.");
   double narrow = INFINITY;
@@ -65,7 +65,7 @@ std::string crowding_text(const Packing& packing) {
     narrow = std::min(narrow, packing.block.size[axis] / largest_contact(packing));
   }
   if (narrow < 6.0) {
-    text += " The block is only " + short_number(narrow) +
+    text += " The block is only " + significant<4>(narrow) +
             " of the largest voids wide, which wastes space at its sides.";
   }
   return text;
@@ -75,12 +75,12 @@ std::string crowding_text(const Packing& packing) {
   const double scale = fitting_scale(packing);
   const double reached = sample.porosity * std::pow(scale, packing.block.dimension);
   throw InputError(
-      "sample.porosity = " + short_number(sample.porosity) +
+      "sample.porosity = " + significant<4>(sample.porosity) +
       " cannot be packed: " + std::to_string(packing.voids.size()) + " voids of radius " +
       length_text(sample.void_radius) + " with sample.ligament = " + length_text(sample.ligament) +
       " and sample.keep_out = " + length_text(sample.keep_out) +
       " were moved apart as far as they go, and fit only when shrunk to a void fraction of " +
-      short_number(reached) + "." + crowding_text(packing) +
+      significant<4>(reached) + "." + crowding_text(packing) +
       " Lower sample.porosity, sample.ligament or sample.keep_out, mix sizes with "
       "sample.void_spread, or set sample.overlap = true.");
 }

@@ -18,7 +18,7 @@ void warn_resolution(const Scene& scene, std::vector<std::string>& warnings) {
   const double diameter = 2.0 * scene.sample.void_radius;
   const double cells = diameter / scene.domain.cell;
   if (cells >= least_cells) return;
-  warnings.push_back("A void is only " + short_number(cells) +
+  warnings.push_back("A void is only " + significant<4>(cells) +
                      " cells across; below 16 its collapse is not resolved. Set domain.cell to " +
                      length_text(diameter / least_cells) + " or less.");
 }
@@ -41,7 +41,7 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
   const std::string thinnest =
       "The thinnest solid between two voids is " + length_text(report.least_gap);
   if (report.least_gap < 3.0 * spacing) {
-    warnings.push_back(thinnest + ", or " + short_number(report.least_gap / spacing) +
+    warnings.push_back(thinnest + ", or " + significant<4>(report.least_gap / spacing) +
                        " particles; below 3 it may break numerically. Set sample.ligament to " +
                        length_text(3.0 * spacing) + " or more, or " +
                        finer(scene, report.least_gap / (3.0 * spacing)) + ".");
@@ -50,8 +50,8 @@ void warn_gaps(const Scene& scene, const SampleReport& report, std::vector<std::
     return std::pair(s.closing_cells, std::string(s.name));
   });
   if (report.least_gap < reach * scene.domain.cell) {
-    warnings.push_back(thinnest + ", or " + short_number(report.least_gap / scene.domain.cell) +
-                       " cells; below " + short_number(reach) + " cells the " + shape +
+    warnings.push_back(thinnest + ", or " + significant<4>(report.least_gap / scene.domain.cell) +
+                       " cells; below " + significant<4>(reach) + " cells the " + shape +
                        " shape function joins what lies on its two sides, and gaps close "
                        "numerically before the surfaces meet. Set sample.ligament to " +
                        length_text(reach * scene.domain.cell) + " or more, or " +
@@ -65,9 +65,9 @@ void warn_islands(const Scene& scene, const SampleReport& report,
   const double all = static_cast<double>(report.particles + report.island_particles);
   const double share = static_cast<double>(report.island_particles) / all;
   if (!(share > 0.01)) return;
-  warnings.push_back("Floating pieces with " + short_number(100.0 * share) +
+  warnings.push_back("Floating pieces with " + significant<4>(100.0 * share) +
                      " % of the particles were removed, so that the porosity of the particles is " +
-                     short_number(report.particle_void_fraction) +
+                     significant<4>(report.particle_void_fraction) +
                      ": the voids cut the solid apart. Lower sample.porosity or change "
                      "sample.seed.");
 }
@@ -100,7 +100,8 @@ void warn_grains(const Scene& scene, const SampleReport& report,
                        finer(scene, least_carrier) + ", or make the grains larger.");
   }
   if (coarse > 0) {
-    warnings.push_back(std::to_string(coarse) + all + "are less than " + short_number(least_cells) +
+    warnings.push_back(std::to_string(coarse) + all + "are less than " +
+                       significant<4>(least_cells) +
                        " cells across; their deformation is not resolved. Set " +
                        finer(scene, least_coarse / least_cells) + ".");
   }

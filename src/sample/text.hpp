@@ -1,21 +1,13 @@
 #pragma once
-// Numbers in messages.
+// Lengths in messages.
 
-#include <cstdio>
-#include <string>
+#include "poreshock/core/text.hpp"
 
 namespace poreshock {
 
-/// A number with four significant digits.
-inline std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 /// A length with four significant digits and its unit.
 inline std::string length_text(double metres) {
-  return short_number(metres) + " m";
+  return significant<4>(metres) + " m";
 }
 
 }  // namespace poreshock

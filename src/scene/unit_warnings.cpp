@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
 
+#include "poreshock/core/text.hpp"
 #include "poreshock/material/library.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 /// Another unit that a number may have been written in.
 struct Unit {
@@ -60,7 +54,7 @@ double meant(const SolidKey& key, const MaterialParameters& m) {
 }
 
 std::string found(const std::string& key, double value, const std::string& unit) {
-  return key + " = " + short_number(value) + " " + unit;
+  return key + " = " + significant<4>(value) + " " + unit;
 }
 
 /// "; in GPa it is 6.9e+10 Pa" for the first unit that makes the value fit; else nothing.
@@ -69,8 +63,8 @@ std::string in_other_unit(double value, const std::string& si, std::initializer_
                           Fits&& fits) {
   for (const Unit& unit : units) {
     if (!fits(value * unit.size)) continue;
-    return std::string(" If it is in ") + unit.name + ", write " + short_number(value * unit.size) +
-           " (" + si + ").";
+    return std::string(" If it is in ") + unit.name + ", write " +
+           significant<4>(value * unit.size) + " (" + si + ").";
   }
   return "";
 }
@@ -82,8 +76,8 @@ void warn_solid(const SolidKey& key, const MaterialParameters& m, const std::str
   const std::string name = found(path + key.key, value, key.unit);
   if (!is_solid(key, value)) {
     warnings.push_back(
-        name + " is far from any solid: the library has " + short_number(low) + " to " +
-        short_number(high) + "; all numbers are SI." +
+        name + " is far from any solid: the library has " + significant<4>(low) + " to " +
+        significant<4>(high) + "; all numbers are SI." +
         in_other_unit(value, key.unit, {key.other}, [&](double x) { return is_solid(key, x); }));
     return;
   }
@@ -93,7 +87,7 @@ void warn_solid(const SolidKey& key, const MaterialParameters& m, const std::str
   const double ratio = value / own->parameters.*key.value;
   if (ratio < far && ratio > 1.0 / far) return;
   warnings.push_back(name + " is far from that of " + m.name + " in the library, " +
-                     short_number(own->parameters.*key.value) +
+                     significant<4>(own->parameters.*key.value) +
                      "; all numbers are SI. Correct it, or give the material another name.");
 }
 
@@ -104,7 +98,7 @@ void warn_young(const MaterialParameters& m, double modulus, const std::string& 
   if (!(m.young > 0.0) || (share > softest && share < stiffest)) return;
   warnings.push_back(
       found(path + "young", m.young, "Pa") + " does not go with a bulk modulus density c0^2 of " +
-      short_number(modulus) + " Pa; all numbers are SI." +
+      significant<4>(modulus) + " Pa; all numbers are SI." +
       in_other_unit(m.young, "Pa", {{"MPa", 1e6}, {"GPa", 1e9}, {"kbar", 1e8}, {"Mbar", 1e11}},
                     [&](double x) { return x > 0.03 * modulus && x < 3.0 * modulus; }));
 }
@@ -113,7 +107,7 @@ void warn_stress(const std::string& key, double stress, double modulus,
                  std::vector<std::string>& warnings) {
   constexpr double weakest = 1e-7;
   if (!(stress > 0.0) || stress > weakest * modulus) return;
-  warnings.push_back(found(key, stress, "Pa") + " is only " + short_number(stress / modulus) +
+  warnings.push_back(found(key, stress, "Pa") + " is only " + significant<4>(stress / modulus) +
                      " of the bulk modulus; all numbers are SI." +
                      in_other_unit(stress, "Pa", {{"MPa", 1e6}, {"GPa", 1e9}}, [&](double x) {
                        return x > 3e-5 * modulus && x < 0.3 * modulus;
@@ -158,13 +152,13 @@ void warn_velocity(const std::string& key, double velocity, const Scene& scene,
   const double c0 = fastest_sound(scene), v = std::fabs(velocity);
   const std::string name = found(key, velocity, "m/s");
   if (v > fast * c0) {
-    warnings.push_back(name + " is " + short_number(v / c0) +
+    warnings.push_back(name + " is " + significant<4>(v / c0) +
                        " times the sound speed; all numbers are SI. Correct it, or c0.");
   }
   const double cells = v * scene.time.end / scene.domain.cell;
   if (!(v > 0.0) || v > slow * c0 || cells > 1.0) return;
-  warnings.push_back(name + " is only " + short_number(v / c0) + " of the sound speed and " +
-                     short_number(cells) + " cells until time.end; all numbers are SI." +
+  warnings.push_back(name + " is only " + significant<4>(v / c0) + " of the sound speed and " +
+                     significant<4>(cells) + " cells until time.end; all numbers are SI." +
                      in_other_unit(velocity, "m/s", {{"km/s", 1e3}}, [&](double x) {
                        return std::fabs(x) > 1e-2 * c0 && std::fabs(x) < fast * c0;
                      }));
@@ -195,12 +189,12 @@ void warn_scales(const Scene& scene, std::vector<std::string>& warnings) {
     warnings.push_back(found("domain.cell", cell, "m") + units + "it, or domain.size.");
   }
   if (path < cell) {
-    warnings.push_back("Sound gets only " + short_number(path / cell) + " cells far until " +
+    warnings.push_back("Sound gets only " + significant<4>(path / cell) + " cells far until " +
                        found("time.end", scene.time.end, "s") + units +
                        "time.end, domain.cell or c0.");
   }
   if (path > most_crossings * size) {
-    warnings.push_back("Sound crosses the domain " + short_number(path / size) + " times until " +
+    warnings.push_back("Sound crosses the domain " + significant<4>(path / size) + " times until " +
                        found("time.end", scene.time.end, "s") + units +
                        "time.end, domain.size or c0.");
   }
