@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/node_views.hpp"
 
 namespace poreshock {
 
@@ -85,15 +85,13 @@ MirrorSet<Dim> mirror_set(const std::array<AxisPlace, Dim>& place,
 template <int Dim>
 std::array<double, Dim> symmetric_velocity(const MirrorSet<Dim>& set, const Vector<Dim>& plane,
                                            double& mass) {
-  using Motion = MotionLane<Dim>;
   std::array<double, Dim> momentum{};
   mass = 0.0;
   for (int k = 0; k < set.size; ++k) {
-    const Lanes& node = *set.member[k].node;
-    mass += node[Motion::mass];
+    const MotionNode<Dim> node{*set.member[k].node};
+    mass += node.mass();
     for (int a = 0; a < Dim; ++a) {
-      momentum[a] +=
-          set.member[k].sign[a] * node[Motion::mass] * (node[Motion::end_velocity + a] - plane[a]);
+      momentum[a] += set.member[k].sign[a] * node.mass() * (node.end(a) - plane[a]);
     }
   }
   std::array<double, Dim> velocity{};
@@ -107,12 +105,10 @@ std::array<double, Dim> symmetric_velocity(const MirrorSet<Dim>& set, const Vect
 template <int Dim>
 double inward_impulse(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity,
                       const Vector<Dim>& plane, int a) {
-  using Motion = MotionLane<Dim>;
   double impulse = 0.0;
   for (int k = 0; k < set.size; ++k) {
-    const Lanes& node = *set.member[k].node;
-    impulse += node[Motion::mass] *
-               (set.member[k].sign[a] * velocity[a] + plane[a] - node[Motion::end_velocity + a]);
+    const MotionNode<Dim> node{*set.member[k].node};
+    impulse += node.mass() * (set.member[k].sign[a] * velocity[a] + plane[a] - node.end(a));
   }
   return impulse * set.place[a].inward;
 }
@@ -139,19 +135,17 @@ template <int Dim>
 void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity,
             const std::array<double, Dim>& rubbed, double mass, const Vector<Dim>& plane,
             NodeLedger& ledger) {
-  using Motion = MotionLane<Dim>;
   double heat = 0.0, friction_heat = 0.0;
   for (int k = 0; k < set.size; ++k) {
-    Lanes& node = *set.member[k].node;
+    const MotionNode<Dim> node{*set.member[k].node};
     double work = 0.0;
     for (int a = 0; a < Dim; ++a) {
       const double end = set.member[k].sign[a] * velocity[a] + plane[a];
-      const double impulse = node[Motion::mass] * (end - node[Motion::end_velocity + a]);
-      node[Motion::end_velocity + a] = end;
-      const double middle = 0.5 * (node[Motion::start_velocity + a] + end);
-      heat -= impulse * (middle - plane[a]);
-      const double rubbing = node[Motion::mass] * (set.member[k].sign[a] * rubbed[a]);
-      friction_heat -= rubbing * (middle - plane[a]);
+      const double impulse = node.mass() * (end - node.end(a));
+      node.set_end(a, end);
+      heat -= impulse * (node.middle(a) - plane[a]);
+      const double rubbing = node.mass() * (set.member[k].sign[a] * rubbed[a]);
+      friction_heat -= rubbing * (node.middle(a) - plane[a]);
       work += impulse * plane[a];
       if (set.member[k].owned) {
         ledger.wall_impulse[a] += quantise(impulse, ledger.inverse_momentum_quantum);
@@ -161,11 +155,11 @@ void impose(const MirrorSet<Dim>& set, const std::array<double, Dim>& velocity,
   }
   const double per_mass = heat / mass, rubbed_per_mass = friction_heat / mass;
   for (int k = 0; k < set.size; ++k) {
-    Lanes& node = *set.member[k].node;
-    node[Motion::heat] += per_mass;
+    const MotionNode<Dim> node{*set.member[k].node};
+    node.add_heat(per_mass);
     if (set.member[k].owned) {
-      const double all = node[Motion::mass] * per_mass;
-      const double rubbing = node[Motion::mass] * rubbed_per_mass;
+      const double all = node.mass() * per_mass;
+      const double rubbing = node.mass() * rubbed_per_mass;
       ledger.wall_heat += quantise(all - rubbing, ledger.inverse_energy_quantum);
       ledger.friction_heat += quantise(rubbing, ledger.inverse_energy_quantum);
     }

@@ -1,46 +1,41 @@
 #include "poreshock/physics/momentum.hpp"
 
-#include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/node_views.hpp"
 
 namespace poreshock {
 
 template <int Dim>
 void integrate_momentum(const Vector<Dim>& body_force, double dt, SlabGrid& grid) {
-  using Sum = SumLane<Dim>;
-  using Motion = MotionLane<Dim>;
-  const Lanes* const end = grid.nodes_from(grid.node_end());
-  for (Lanes* node = grid.nodes_from(grid.first_row()); node != end; ++node) {
-    const Lanes sum = *node;
-    const double mass = sum[Sum::mass];
-    if (!(mass > 0.0)) {
-      *node = Lanes{};
-      continue;
+  const Lanes* const last = grid.nodes_from(grid.node_end());
+  for (Lanes* node = grid.nodes_from(grid.first_row()); node != last; ++node) {
+    const Lanes sums = *node;
+    Lanes moved{};
+    const SumNode<Dim> sum{sums};
+    const MotionNode<Dim> motion{moved};
+    if (sum.mass() > 0.0) {
+      const double inverse_mass = 1.0 / sum.mass();
+      for (int a = 0; a < Dim; ++a) {
+        const double start = sum.momentum(a) * inverse_mass;
+        motion.set_start(a, start);
+        motion.set_end(a, start + dt * (sum.force(a) * inverse_mass + body_force[a]));
+      }
+      motion.set_mass(sum.mass());
     }
-    Lanes motion{};
-    const double inverse_mass = 1.0 / mass;
-    for (int a = 0; a < Dim; ++a) {
-      const double start = sum[Sum::momentum + a] * inverse_mass;
-      motion[Motion::start_velocity + a] = start;
-      motion[Motion::end_velocity + a] =
-          start + dt * (sum[Sum::force + a] * inverse_mass + body_force[a]);
-    }
-    motion[Motion::mass] = mass;
-    *node = motion;
+    *node = moved;
   }
 }
 
 template <int Dim>
 void add_body_work(const Vector<Dim>& body_force, double dt, const SlabGrid& grid,
                    NodeLedger& ledger) {
-  using Motion = MotionLane<Dim>;
   if (!(body_force.squaredNorm() > 0.0)) return;
-  const Lanes* const end = grid.nodes_from(grid.last_row());
-  for (const Lanes* node = grid.nodes_from(grid.first_row()); node != end; ++node) {
-    const double mass = (*node)[Motion::mass];
+  const Lanes* const last = grid.nodes_from(grid.last_row());
+  for (const Lanes* at = grid.nodes_from(grid.first_row()); at != last; ++at) {
+    const MotionNode<Dim, const Lanes> node{*at};
+    const double mass = node.mass();
     double power = 0.0;
     for (int a = 0; a < Dim; ++a) {
-      power += body_force[a] * 0.5 *
-               ((*node)[Motion::start_velocity + a] + (*node)[Motion::end_velocity + a]);
+      power += body_force[a] * node.middle(a);
       ledger.body_impulse[a] +=
           quantise(mass * body_force[a] * dt, ledger.inverse_momentum_quantum);
     }

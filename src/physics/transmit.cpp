@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "poreshock/transfer/node_lanes.hpp"
+#include "poreshock/transfer/node_views.hpp"
 
 namespace poreshock {
 
@@ -29,21 +29,19 @@ double backing_stress(const Backing& b, double w) {
 
 template <int Dim>
 void push_ends(const SlabGrid& ends, double dt, SlabGrid& grid, NodeLedger& ledger) {
-  using Motion = MotionLane<Dim>;
   constexpr int axis = Dim - 1;
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
     const Lanes* forces = ends.row(row);
     for (int i = 0; i < grid.shape().row_size; ++i) {
-      Lanes* const node = grid.find(0, row, i);
-      if (node == nullptr) continue;
-      const double mass = (*node)[Motion::mass], impulse = dt * forces[i][end_force];
-      if (!(mass > 0.0) || impulse == 0.0) continue;
-      (*node)[Motion::end_velocity + axis] += impulse / mass;
+      Lanes* const at = grid.find(0, row, i);
+      if (at == nullptr) continue;
+      const MotionNode<Dim> node{*at};
+      const double impulse = dt * forces[i][end_force];
+      if (!(node.mass() > 0.0) || impulse == 0.0) continue;
+      node.set_end(axis, node.end(axis) + impulse / node.mass());
       if (row >= grid.last_row()) continue;
-      const double middle =
-          0.5 * ((*node)[Motion::start_velocity + axis] + (*node)[Motion::end_velocity + axis]);
       ledger.wall_impulse[axis] += quantise(impulse, ledger.inverse_momentum_quantum);
-      ledger.wall_work += quantise(impulse * middle, ledger.inverse_energy_quantum);
+      ledger.wall_work += quantise(impulse * node.middle(axis), ledger.inverse_energy_quantum);
     }
   }
 }
