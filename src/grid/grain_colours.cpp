@@ -165,19 +165,25 @@ std::vector<GrainPair> near_grains(std::vector<CellRun> runs, int reach, const S
   std::vector<int> ys;
   // Stencil cells 0 and `around` are one and the same across a periodic side.
   const int around = shape.nodes[0] - 3;
+  std::vector<CellRun> beginning, ending;  // of a line: what may be near across a periodic side
   for (std::size_t first = 0; first < map.runs().size();) {
     const CellRun& r = map.runs()[first];
     const std::span<const CellRun> line = map.line(r.row, r.y);
     first += line.size();
+    beginning.clear(), ending.clear();
+    for (const CellRun& run : line) {
+      if (!shape.periodic[0]) break;
+      if (run.first - reach + around < shape.nodes[0]) beginning.push_back(run);
+      if (run.last + reach - around >= 0) ending.push_back(run);
+    }
     near_indices(r.y, shape.dimension == 3 ? reach : 0, shape.nodes[1],
                  shape.dimension == 3 && shape.periodic[1], ys);
     for (int row = r.row; row <= r.row + reach; ++row) {
       for (const int y : ys) {
         const std::span<const CellRun> others = map.line(row, y);
-        for (const int shift : {0, -around, around}) {
-          if (shift != 0 && !shape.periodic[0]) continue;
-          join_lines(line, others, reach, shift, map.longest(), joined);
-        }
+        join_lines(line, others, reach, 0, map.longest(), joined);
+        join_lines(beginning, others, reach, around, map.longest(), joined);
+        join_lines(ending, others, reach, -around, map.longest(), joined);
       }
     }
   }

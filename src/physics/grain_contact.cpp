@@ -65,6 +65,15 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
   motion[Motion::heat] += grain.heat / grain.mass;
 }
 
+/// True where no side of the domain takes space from a node or moves it.
+bool is_inner(const GridShape& shape, const NodePlace& place) {
+  const auto inside = [](int index, int count) { return index > 2 && index < count - 3; };
+  if (!inside(place.row, shape.rows)) return false;
+  if (shape.dimension == 2) return inside(place.lateral, shape.nodes[0]);
+  return inside(place.lateral % shape.nodes[0], shape.nodes[0]) &&
+         inside(place.lateral / shape.nodes[0], shape.nodes[1]);
+}
+
 /// Shared nodes with one number of fields, which collide together.
 template <int Dim>
 struct NodeBatch {
@@ -156,6 +165,8 @@ ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodeP
                               const FaceTable& faces, const NodePoints<Dim>& points,
                               NodeLedger& ledger) {
   const GridShape& shape = grids.motion.shape();
+  double space = 1.0;
+  for (int a = 0; a < Dim; ++a) space *= shape.cell;
   ContactSummary summary;
   std::vector<NodeBatch<Dim>> batches(most_grains_at_node + 1);  // by the number of fields
   for (std::size_t n = 0; n < shared.size(); ++n) {
@@ -165,9 +176,12 @@ ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodeP
     NodeBatch<Dim>& batch = batches[entries.size()];
     ContactSettings& here = add_node<Dim>(place.row, entries, points_of(points, n), batch).settings;
     here = settings;
-    here.capacity = node_capacity(shape, scene.transfer, place.row, place.lateral);
-    here.mirrored = is_mirrored(scene.boundary, shape, place.row, place.lateral);
-    if (here.mirrored) here.kept = 0.0;
+    here.capacity = space;
+    if (!is_inner(shape, place)) {
+      here.capacity = node_capacity(shape, scene.transfer, place.row, place.lateral);
+      here.mirrored = is_mirrored(scene.boundary, shape, place.row, place.lateral);
+      if (here.mirrored) here.kept = 0.0;
+    }
     if (batch.nodes.size() < most_contact_nodes) continue;
     collide_batch<Dim>(grids, faces, batch, ledger, summary);
   }

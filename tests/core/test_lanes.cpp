@@ -1,6 +1,7 @@
 // Vectors of eight: what they do lane by lane, at any address of a double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -46,6 +47,17 @@ TEST(Lanes, FusedRoundsOnce) {
     EXPECT_EQ(one_factor[k], -0x1p-60);
   }
   for (int k = 0; k < lane_count / 2; ++k) EXPECT_EQ(half[k], -0x1p-60);
+}
+
+TEST(Lanes, ChooseLaneByLane) {
+  const Lanes a = {1.0, -2.0, 3.0, 0.0, 5.0, -6.0, 7.0, -8.0};
+  const Lanes b = {1.0, 2.0, -3.0, -0.0, 5.5, -6.0, -7.0, 8.0};
+  const Lanes most = larger(a, b), chosen = where_differ(a, b, a + a, b);
+  for (int k = 0; k < lane_count; ++k) {
+    EXPECT_EQ(most[k], std::max(a[k], b[k]));
+    EXPECT_EQ(chosen[k], a[k] != b[k] ? 2.0 * a[k] : b[k]);
+  }
+  EXPECT_TRUE(std::signbit(chosen[3]));
 }
 
 TEST(Lanes, Halves) {
