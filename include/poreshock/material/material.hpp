@@ -75,9 +75,10 @@ struct Material {
   }
   /// Energy per mass stored by the back stress when it is not heat, 3 a:a/(4 Hk rho), J/kg.
   double back_stress_energy(double back_stress_square, double density) const {
-    return plastic_heat == PlasticHeat::dissipation && strength.kinematic > 0.0
-               ? 0.75 * back_stress_square / (strength.kinematic * density)
-               : 0.0;
+    // The same for all particles of a loop, so it is chosen outside.
+    const bool stores = plastic_heat == PlasticHeat::dissipation && strength.kinematic > 0.0;
+    const double modulus = stores ? strength.kinematic : std::numeric_limits<double>::infinity();
+    return 0.75 * back_stress_square / (modulus * density);
   }
 };
 

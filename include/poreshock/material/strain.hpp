@@ -72,6 +72,7 @@ inline DeformationIncrement<3> deformation_increment(const std::array<double, 9>
   double det = 0.0;
   // Polar factor by Newton's iteration R <- (R + R^-T)/2 (Higham 1986); five steps reach round-off
   // for the stretches one time step may have.
+#pragma GCC unroll 5
   for (int iteration = 0; iteration < 5; ++iteration) {
     const std::array<double, 9> cofactor = {
         R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
