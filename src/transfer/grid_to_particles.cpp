@@ -1,6 +1,7 @@
 #include "poreshock/transfer/grid_to_particles.hpp"
 
 #include "jump_limiter.hpp"
+#include "lane_particles.hpp"
 #include "velocity_modes.hpp"
 
 namespace poreshock {
@@ -9,29 +10,10 @@ namespace {
 
 /// Eight particles in canonical order; an incomplete group repeats its last one.
 struct Group {
-  std::array<std::uint32_t, lane_count> particles;
+  LaneParticles particles;
   int count;          ///< distinct ones
-  bool adjacent;      ///< their columns are
   std::size_t place;  ///< of the first, from the first particle of the sweep
 };
-
-inline Lanes load(const std::vector<double>& column, const Group& group) {
-  if (group.adjacent) return *reinterpret_cast<const Lanes*>(column.data() + group.particles[0]);
-  double values[lane_count];
-  for (int n = 0; n < lane_count; ++n) values[n] = column[group.particles[n]];
-  return *reinterpret_cast<const Lanes*>(values);
-}
-
-inline void store(const Lanes& lanes, const Group& group, std::vector<double>& column) {
-  if (group.adjacent) {
-    *reinterpret_cast<Lanes*>(column.data() + group.particles[0]) = lanes;
-    return;
-  }
-  double values[lane_count];
-  *reinterpret_cast<Lanes*>(values) = lanes;
-  double* const target = column.data();
-  for (int n = 0; n < lane_count; ++n) target[group.particles[n]] = values[n];
-}
 
 /// Stores the results of a group side by side.
 inline void store_ordered(const Lanes& lanes, const Group& group, std::vector<double>& column) {
@@ -50,14 +32,15 @@ inline ModeLanes<Dim, M> load_modes(const Group& group, double cell, const ModeN
                                     const Particles<Dim>& particles) {
   ModeLanes<Dim, M> c;
   for (int a = 0; a < Dim; ++a) {
-    c[0][a] = load(particles.velocity[a], group);
+    c[0][a] = load(particles.velocity[a], group.particles);
     if constexpr (M != Modes::constant) {
-      for (int k = 0; k < Dim; ++k) c[1 + k][a] = cell * load(particles.affine[a * Dim + k], group);
+      for (int k = 0; k < Dim; ++k)
+        c[1 + k][a] = cell * load(particles.affine[a * Dim + k], group.particles);
     }
     if constexpr (M == Modes::quadratic) {
       for (int k = 0; k < second_modes<Dim>; ++k) {
         const auto& column = particles.quadratic[a * second_modes<Dim> + k];
-        const Lanes amplitude = load(column, group);
+        const Lanes amplitude = load(column, group.particles);
         c[1 + Dim + k][a] =
             k < Dim ? norm.inverse_root[k] * amplitude : Spline::inverse_inertia * amplitude;
       }
@@ -70,17 +53,17 @@ template <int Dim, Modes M, class Spline>
 inline void store_modes(const ModeLanes<Dim, M>& c, const Group& group, double cell,
                         const ModeNorms<Dim, M>& norm, Particles<Dim>& particles) {
   for (int a = 0; a < Dim; ++a) {
-    store(c[0][a], group, particles.velocity[a]);
+    store(c[0][a], group.particles, particles.velocity[a]);
     if constexpr (M != Modes::constant) {
       for (int k = 0; k < Dim; ++k) {
-        store((1.0 / cell) * c[1 + k][a], group, particles.affine[a * Dim + k]);
+        store((1.0 / cell) * c[1 + k][a], group.particles, particles.affine[a * Dim + k]);
       }
     }
     if constexpr (M == Modes::quadratic) {
       for (int k = 0; k < second_modes<Dim>; ++k) {
         const Lanes mode = c[1 + Dim + k][a];
-        store(k < Dim ? norm.root[k] * mode : (1.0 / Spline::inverse_inertia) * mode, group,
-              particles.quadratic[a * second_modes<Dim> + k]);
+        store(k < Dim ? norm.root[k] * mode : (1.0 / Spline::inverse_inertia) * mode,
+              group.particles, particles.quadratic[a * second_modes<Dim> + k]);
       }
     }
   }
@@ -155,8 +138,8 @@ inline void move_group(const GroupMoments<Dim, M>& m, double cell,
   const Lanes heat = update_modes<Dim, M, Kept, Spline>(m, cell, motion, group, particles, report);
   for (int a = 0; a < Dim; ++a) {
     const Lanes v = m.value[Lane::end_velocity + a];
-    const Lanes x = load(particles.position[a], group);
-    store(x + motion.dt * (v - motion.grid_velocity[a]), group, particles.position[a]);
+    const Lanes x = load(particles.position[a], group.particles);
+    store(x + motion.dt * (v - motion.grid_velocity[a]), group.particles, particles.position[a]);
   }
   store_gradients<Dim, M>(m, group, step);
   if constexpr (shows_jumps<Spline>) {
@@ -167,7 +150,7 @@ inline void move_group(const GroupMoments<Dim, M>& m, double cell,
     }
   }
   store_ordered(m.value[Lane::heat] + heat, group, step.heat);
-  book_heat<Dim, M>(heat, m, load(particles.mass, group), motion, group, report);
+  book_heat<Dim, M>(heat, m, load(particles.mass, group.particles), motion, group, report);
 }
 
 // Flattened: a call per value would cost more than the arithmetic.
@@ -182,13 +165,14 @@ template <int Dim, Modes M, Keeps Kept, class Spline>
   std::array<Moments<Dim, M, shows_jumps<Spline>>, lane_count> pending;
   Group group{};
   const auto finish_group = [&] {
+    auto& [index, adjacent] = group.particles;
     for (int n = group.count; n < lane_count; ++n) {
       pending[n] = pending[group.count - 1];
-      group.particles[n] = group.particles[group.count - 1];
+      index[n] = index[group.count - 1];
     }
-    group.adjacent = group.count == lane_count;
+    adjacent = group.count == lane_count;
     for (std::uint32_t n = 1; n < lane_count; ++n) {
-      group.adjacent = group.adjacent && group.particles[n] == group.particles[0] + n;
+      adjacent = adjacent && index[n] == index[0] + n;
     }
     GroupMoments<Dim, M> m;
     group_moments<Dim, Spline, M>(pending.data(), inverse_cell, m);
@@ -202,7 +186,7 @@ template <int Dim, Modes M, Keeps Kept, class Spline>
       },
       particles, cells, grid, rows,
       [&](std::uint32_t p, const PointWeights<Dim>& w, const Lanes* nodes) {
-        group.particles[group.count] = p;
+        group.particles.index[group.count] = p;
         take_moments<Dim, Spline, M>(w, nodes, pending[group.count]);
         if (++group.count == lane_count) finish_group();
       });

@@ -47,9 +47,12 @@ void scatter_lanes(const Spline& spline, const Particles<Dim>& particles, const 
   const double cell = surfaces.shape().cell;
   scatter_blocks<Dim, Count>(
       spline, particles, cells,
-      [&](std::uint32_t p, const BlockWeights<Dim, Spline>& w, auto& sums) {
-        const double volume = unscaled<Dim, Spline>(particles.mass[p] / particles.density[p]);
-        add_surface<Dim, Count, Spline>(particles, p, volume, cell, w, sums);
+      [&](const Batch<Dim>& batch, const BlockWeights<Dim, Spline>* w, auto& sums) {
+        for (std::ptrdiff_t n = 0; n < batch.count; ++n) {
+          const std::uint32_t p = batch.first[n];
+          const double volume = unscaled<Dim, Spline>(particles.mass[p] / particles.density[p]);
+          add_surface<Dim, Count, Spline>(particles, p, volume, cell, w[n], sums);
+        }
       },
       surfaces, [&](int row, int lateral) { return is_chosen(chosen, row, lateral, surfaces); });
 }

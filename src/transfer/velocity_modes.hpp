@@ -13,6 +13,7 @@
 /// with R = c - M, lambda = 1 - kappa_0 and s_i = |u'_i - u_i|^2/2 + lambda u_i . u'_i. It closes
 /// the energy for any shares, and is not negative where all kappa_k are equal.
 
+#include "mode_norms.hpp"
 #include "moments.hpp"
 
 namespace poreshock {
@@ -20,47 +21,6 @@ namespace poreshock {
 /// Modes of eight particles, the velocity first: [mode][component], m/s.
 template <int Dim, Modes M>
 using ModeLanes = std::array<std::array<Lanes, Dim>, 1 + higher_modes<Dim, M>>;
-
-/// Norms K of the modes under N.
-template <int Dim, Modes M>
-struct ModeNorms {
-  std::array<Lanes, 1 + higher_modes<Dim, M>> value;
-  /// Of the modes of second order: 1/K, and the root that turns coefficients into amplitudes.
-  std::array<Lanes, M == Modes::quadratic ? Dim : 0> inverse, root, inverse_root;
-};
-
-/// Square root, lane by lane.
-inline Lanes square_root(const Lanes& x) {
-  double values[lane_count];
-  *reinterpret_cast<Lanes*>(values) = x;
-  for (double& value : values) value = std::sqrt(value);
-  return *reinterpret_cast<const Lanes*>(values);
-}
-
-/// Norms of a B-spline of inertia D (squared cells). Of r_a^2 - D the cubic one has the fourth
-/// moment less D^2, 2/9 - f^2 (1 - f)^2 at the place f in the cell.
-template <int Dim, Modes M>
-inline ModeNorms<Dim, M> mode_norms(double inertia, const std::array<Lanes, Dim>& local) {
-  ModeNorms<Dim, M> norm;
-  norm.value[0] = 1.0 - Lanes{};
-  if constexpr (M != Modes::constant) {
-    for (int a = 0; a < Dim; ++a) norm.value[1 + a] = inertia - Lanes{};
-  }
-  if constexpr (M == Modes::quadratic) {
-    for (int a = 0; a < Dim; ++a) {
-      const Lanes product = local[a] * (1.0 - local[a]);
-      const Lanes square = 2.0 / 9.0 - product * product;
-      norm.value[1 + Dim + a] = square;
-      norm.inverse[a] = (1.0 - Lanes{}) / square;
-      norm.root[a] = square_root(square);
-      norm.inverse_root[a] = norm.root[a] * norm.inverse[a];
-    }
-    for (int n = Dim; n < second_modes<Dim>; ++n) {
-      norm.value[1 + Dim + n] = inertia * inertia - Lanes{};
-    }
-  }
-  return norm;
-}
 
 /// Moments of the start (`first` = Dim) or end velocities (0): coefficients of their modes.
 template <int Dim, Modes M>

@@ -66,12 +66,11 @@ inline DeformationIncrement<2> deformation_increment(const std::array<double, 4>
   return result;
 }
 
-inline DeformationIncrement<3> deformation_increment(const std::array<double, 9>& F) {
-  DeformationIncrement<3> result;
+/// Rotation R of F = V R and det F: polar factor by Newton's iteration R <- (R + R^-T)/2 (Higham
+/// 1986); five steps reach round-off for the stretches one time step may have.
+inline std::array<double, 9> polar_rotation(const std::array<double, 9>& F, double& det) {
   std::array<double, 9> R = F;
-  double det = 0.0;
-  // Polar factor by Newton's iteration R <- (R + R^-T)/2 (Higham 1986); five steps reach round-off
-  // for the stretches one time step may have.
+  // Without a loop here one over particles vectorises.
 #pragma GCC unroll 5
   for (int iteration = 0; iteration < 5; ++iteration) {
     const std::array<double, 9> cofactor = {
@@ -83,6 +82,12 @@ inline DeformationIncrement<3> deformation_increment(const std::array<double, 9>
     const double half_inverse = 0.5 / d;
     for (int k = 0; k < 9; ++k) R[k] = 0.5 * R[k] + half_inverse * cofactor[k];
   }
+  return R;
+}
+
+inline DeformationIncrement<3> deformation_increment(const std::array<double, 9>& F) {
+  DeformationIncrement<3> result;
+  result.rotation = polar_rotation(F, result.volume_ratio);
   const auto row = [&](int i, int j) {
     return (F[3 * i] * F[3 * j] + F[3 * i + 1] * F[3 * j + 1]) + F[3 * i + 2] * F[3 * j + 2];
   };
@@ -106,8 +111,6 @@ inline DeformationIncrement<3> deformation_increment(const std::array<double, 9>
   SymmetricTensor<3> e = commuting_product(y, commuting_product(top, inverse(bottom)));
   const double third = ((e[0] + e[1]) + e[2]) / 3.0;
   for (int k = 0; k < 3; ++k) e[k] -= third;
-  result.volume_ratio = det;
-  result.rotation = R;
   result.strain_deviator = e;
   return result;
 }

@@ -11,8 +11,8 @@
 
 namespace poreshock {
 
-/// What a sweep needs of the weights: with `modes` also the norms of the modes of second order.
-enum class WeightParts { values, all, modes };
+/// What a sweep needs of the weights.
+enum class WeightParts { values, all };
 
 /// Weights of a particle along its axes, four nodes an axis, times `scale` each: value, slope per
 /// cell, and offset in cells. In memory, where one number is spread over lanes as it loads.
@@ -22,20 +22,7 @@ struct BlockWeights {
   static constexpr std::size_t others = Parts == WeightParts::values ? 0 : size;
   alignas(64) std::array<double, size> value;
   std::array<double, others> slope, offset;
-  /// 1/sqrt(K) of r_a^2 - D, see mode_norms
-  std::array<double, Parts == WeightParts::modes ? 4 : 0> inverse_norm;
 };
-
-/// 1/sqrt(2/9 - f^2 (1 - f)^2) of two places in a cell.
-inline void inverse_norms(double f, double g, double* result) {
-  typedef double Pair __attribute__((vector_size(16)));
-  const Pair place = {f, g};
-  const Pair product = place * (1.0 - place);
-  const Pair square = 2.0 / 9.0 - product * product;
-  const Pair inverse = 1.0 / Pair{std::sqrt(square[0]), std::sqrt(square[1])};
-  result[0] = inverse[0];
-  result[1] = inverse[1];
-}
 
 template <int Dim, WeightParts Parts, class Spline>
 inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
@@ -52,13 +39,6 @@ inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
     }
   };
   for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
-  if constexpr (Parts == WeightParts::modes) {
-    const auto local = [&](int a) {
-      return local_place<Spline>(particles.position[a][p] * inverse_cell, base[a]);
-    };
-    inverse_norms(local(0), local(1), w.inverse_norm.data());
-    if constexpr (Dim == 3) inverse_norms(local(2), local(2), w.inverse_norm.data() + 2);
-  }
   return w;
 }
 
@@ -108,9 +88,9 @@ inline Lanes slope_in(const BlockWeights<Dim, Spline, Parts>& w, int a, int b) {
 /// All cells of a sweep.
 inline constexpr auto every_cell = [](int, int) { return true; };
 
-/// Scatters in blocks: accumulate(p, weights, sums) adds one particle to sums[quantity][block], for
-/// cells with takes(row, lateral). Sums of a run start at +0 and are added to the row buffer of its
-/// velocity field, that to the grid. Not collective.
+/// Scatters in blocks: accumulate(batch, weights of its particles, sums) adds them to
+/// sums[quantity][block], for cells with takes(row, lateral). Sums of a run start at +0 and are
+/// added to the row buffer of its velocity field, that to the grid. Not collective.
 template <int Dim, int Quantities, WeightParts Parts = WeightParts::all, class Spline,
           class Accumulate, class Takes = decltype(every_cell)>
 void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
@@ -120,18 +100,17 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
   const double inverse_cell = 1.0 / shape.cell;
   PlanarBuffer<Dim, Spline, Quantities> buffer(shape, grid.fields());
   grid.clear();
+  const auto weights = [&](std::uint32_t p, const std::array<int, Dim>& base) {
+    return block_weights<Dim, Parts>(spline, particles, p, base, inverse_cell);
+  };
   for_each_run(
       particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         if (!takes(row, lateral)) return;
-        const auto base = cell_index<Dim>(shape, row, lateral);
         alignas(64) Lanes sums[Quantities][blocks] = {};
-        for_each_weighted(
-            first, last,
-            [&](std::uint32_t p) {
-              return block_weights<Dim, Parts>(spline, particles, p, base, inverse_cell);
-            },
-            [&](std::uint32_t p, const auto& w) { accumulate(p, w, sums); });
+        for_each_batch<Dim>(
+            first, last, cell_index<Dim>(shape, row, lateral), weights,
+            [&](const Batch<Dim>& batch, const auto* w) { accumulate(batch, w, sums); });
         const std::ptrdiff_t at =
             buffer.start_of(field_of(particles, cells, *first, grid)) + lateral;
         for (int q = 0; q < Quantities; ++q) {
@@ -160,10 +139,12 @@ void scatter_values(const Spline& spline, const Particles<Dim>& particles, const
   constexpr WeightParts parts = WeightParts::values;
   scatter_blocks<Dim, Quantities, parts>(
       spline, particles, cells,
-      [&](std::uint32_t p, const BlockWeights<Dim, Spline, parts>& w, auto& sums) {
-        std::array<double, Quantities> value = values(p);
-        for (double& x : value) x = unscaled<Dim, Spline>(x);
-        add_values(w, value, sums);
+      [&](const Batch<Dim>& batch, const BlockWeights<Dim, Spline, parts>* w, auto& sums) {
+        for (std::ptrdiff_t n = 0; n < batch.count; ++n) {
+          std::array<double, Quantities> value = values(batch.first[n]);
+          for (double& x : value) x = unscaled<Dim, Spline>(x);
+          add_values(w[n], value, sums);
+        }
       },
       grid);
 }

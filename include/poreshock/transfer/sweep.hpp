@@ -146,18 +146,25 @@ void for_each_run(const Particles<Dim>& particles, const CellOrder& cells, const
   }
 }
 
-/// Calls visit(p, weights(p)) for the particles of a run. The weights of several are made first, so
-/// that they do not wait for each other.
-template <class Weights, class Visit>
-inline void for_each_weighted(const std::uint32_t* first, const std::uint32_t* last,
-                              Weights&& weights, Visit&& visit) {
-  constexpr std::ptrdiff_t batch = 8;
-  decltype(weights(*first)) prepared[batch];
+/// At most eight particles of one run.
+template <int Dim>
+struct Batch {
+  const std::uint32_t* first;
+  std::ptrdiff_t count;
+  std::array<int, Dim> base;  ///< lowest node of their stencil
+};
+
+/// Calls visit(batch, weights of its particles) for all of a run; weights(p, base) are made for the
+/// whole batch first, so that they do not wait for each other.
+template <int Dim, class Weights, class Visit>
+inline void for_each_batch(const std::uint32_t* first, const std::uint32_t* last,
+                           const std::array<int, Dim>& base, Weights&& weights, Visit&& visit) {
+  decltype(weights(*first, base)) prepared[lane_count];
   while (first != last) {
-    const std::ptrdiff_t count = std::min(batch, last - first);
-    for (std::ptrdiff_t n = 0; n < count; ++n) prepared[n] = weights(first[n]);
-    for (std::ptrdiff_t n = 0; n < count; ++n) visit(first[n], prepared[n]);
-    first += count;
+    const Batch<Dim> batch = {first, std::min<std::ptrdiff_t>(lane_count, last - first), base};
+    for (std::ptrdiff_t n = 0; n < batch.count; ++n) prepared[n] = weights(first[n], base);
+    visit(batch, prepared);
+    first += batch.count;
   }
 }
 
@@ -210,9 +217,9 @@ void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellO
           const Lanes* source = grid.line(field, row + k, lateral + across);
           for (int i = 0; i < Spline::width; ++i) nodes[n + i] = source[i];
         }
-        for_each_weighted(
-            first, last, [&](std::uint32_t p) { return weights(p, base); },
-            [&](std::uint32_t p, const auto& w) { visit(p, w, nodes); });
+        for_each_batch<Dim>(first, last, base, weights, [&](const Batch<Dim>& batch, auto* w) {
+          for (std::ptrdiff_t n = 0; n < batch.count; ++n) visit(batch.first[n], w[n], nodes);
+        });
       },
       [](int) {});
 }
