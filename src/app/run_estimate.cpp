@@ -158,7 +158,7 @@ void require_memory(const Scene& scene, const Resources& resources) {
 }
 
 double assumed_rate(int dimension) {
-  return dimension == 2 ? 4.0e6 : 1.0e6;
+  return dimension == 2 ? 4.0e6 : 2.0e6;
 }
 
 double diffusion_length(const Scene& scene, const MaterialParameters& material) {
