@@ -88,8 +88,8 @@ inline void load_sources(const Particles<Dim>& particles, const Where& where,
   if constexpr (M == Modes::quadratic) {
     std::array<Number, Dim> local;
     for (int a = 0; a < Dim; ++a) {
-      local[a] =
-          load(particles.position[a], where) * (1.0 / cell) + local_place<Spline>(0.0, base[a]);
+      const double start = -local_place<Spline>(0.0, base[a]);
+      local[a] = load(particles.position[a], where) * (1.0 / cell) - start;
     }
     add_second_modes<Dim, Spline>(particles, where, local, s);
   }
