@@ -118,7 +118,8 @@ std::string TomlWriter::inline_text() const {
 std::string TomlWriter::document() const {
   std::string text;
   for (const Entry& entry : entries_) {
-    std::string line = entry.key + " = " + entry.value;
+    std::string line = entry.key;
+    line.append(" = ").append(entry.value);
     if (entry.comment.empty()) {
       text += line + "\n";
     } else if (line.find('\n') != std::string::npos) {
