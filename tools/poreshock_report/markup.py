@@ -48,17 +48,19 @@ def number(value):
     return f"{value:.5g}"
 
 
+MISSING = '<p class="missing">'
+
+
 def missing(what, reason):
-    return f'<p class="missing">Missing: {html.escape(what)}: {html.escape(str(reason))}.</p>'
+    return f'{MISSING}Missing: {html.escape(what)}: {html.escape(str(reason))}.</p>'
 
 
 def section(title, body):
-    """A section whose body a function makes, or the reason why it cannot."""
+    """A section whose body a function makes, or just the reason why it cannot."""
     try:
-        text = body()
+        return f"<section><h2>{html.escape(title)}</h2>{body()}</section>"
     except reader.Missing as reason:
-        text = missing(title, reason)
-    return f"<section><h2>{html.escape(title)}</h2>{text}</section>"
+        return missing(title, reason)
 
 
 def inline(data, kind="png"):
@@ -101,7 +103,11 @@ def table(head, rows):
 
 
 def document(title, parts):
-    """The whole page."""
+    """The whole page; what is missing stands together at its end."""
+    absent = [part for part in parts if part.startswith(MISSING)]
+    parts = [part for part in parts if not part.startswith(MISSING)]
+    if absent:
+        parts.append(f'<section><h2>Not in this report</h2>{"".join(absent)}</section>')
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>{html.escape(title)}</title><style>{STYLE}</style></head><body>"

@@ -17,8 +17,10 @@ def read_map(path, field="temperature"):
         with h5py.File(path, "r") as file:
             data = file[f"map/{field}"]
             return data[()], numpy.array([data.attrs[f"low_{axis}"] for axis in "xyz"]), float(data.attrs["pixel"])
-    except (OSError, KeyError) as error:
-        raise reader.Missing(f"{path.name} holds no map of {field} (the scene needs [morphology]): {error}") from None
+    except KeyError:
+        raise reader.Missing(f"{path.name} holds no map of {field} (the scene needs [morphology])") from None
+    except OSError as error:
+        raise reader.Missing(f"{path.name} cannot be read: {error}") from None
 
 
 def slice_heights(height, temperature, wanted):
@@ -49,7 +51,7 @@ def slices(folder, wanted=()):
         mean, spans = figures.pixel_mean(position[near, 0], position[near, 1], temperature[near], extent, spacing)
         image = axis.imshow(mean, origin="lower", extent=[1e3 * end for span in spans for end in span], cmap=HEAT, vmin=low,
                             vmax=high, interpolation="nearest")
-        axis.set(title=f"{1e3 * height:.4g} mm high", xlabel="x [mm]")
+        axis.set(title=f"{1e3 * height:.3g} mm high", xlabel="x [mm]")
         axis.grid(False)
         axis.locator_params(nbins=3)
     axes[0, 0].set_ylabel(f"y [mm], at {1e9 * time:.4g} ns")
