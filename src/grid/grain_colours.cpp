@@ -43,7 +43,7 @@ std::vector<CellRun> runs_of(std::span<const GrainCell> cells, const GridShape& 
 std::vector<CellRun> runs_at_ends(std::span<const CellRun> runs, int reach, const SlabGrid& grid) {
   std::vector<CellRun> ends;
   for (const CellRun& r : runs) {
-    const bool low = grid.first_row() > 0 && r.row < grid.first_row() + reach;
+    const bool low = grid.first_row() > grid.shape().first && r.row < grid.first_row() + reach;
     const bool high = grid.last_row() < grid.shape().rows && r.row >= grid.last_row() - reach;
     if (low || high) ends.push_back(r);
   }

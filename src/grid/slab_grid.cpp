@@ -60,6 +60,13 @@ GridShape make_grid_shape(const Scene& scene) {
   return shape;
 }
 
+GridShape moved_up(GridShape shape, int rows) {
+  shape.first += rows;
+  shape.rows += rows;
+  shape.nodes[shape.dimension - 1] += rows;
+  return shape;
+}
+
 SlabLimits slab_limits(const GridShape& shape) {
   // Inner slabs: the seam depth. At a wall the nodes one row beyond it mirror those one row inside,
   // and no other rank may hold only one of the two.

@@ -43,7 +43,7 @@ RowSums make_band(const PixelSources<Dim>& particles, std::size_t components,
   }
   const double reach = 0.5 * scales.max_side;
   const auto row_at = [&](double y) {
-    return std::clamp(y / grid.layout().pixel_size, 0.0, static_cast<double>(rows));
+    return std::clamp(y / grid.layout().pixel_size - scales.low, 0.0, static_cast<double>(rows));
   };
   // One row more at each end: the rounding here is not that of the squares.
   const int first = std::max(static_cast<int>(std::floor(row_at(low - reach))) - 1, 0);

@@ -66,13 +66,15 @@ void make_squares(const PixelSources<Dim>& particles, std::size_t first, std::si
   }
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     const double* position = particles.position[axis].data() + first;
+    // Whole pixels less are exact: a higher map has the same bits where both have pixels.
+    const double low = axis + 1 < Dim ? 0.0 : scales.low;
     for (std::size_t i = 0; i < count; ++i) {
       const double centre = position[i] / pixel_size;
       // Keeps the numbers of the pixels far inside 64 bits.
       const bool near = std::abs(centre) < place_limit;
       squares.usable[i] = static_cast<std::uint8_t>(squares.usable[i] & (near ? 1 : 0));
-      squares.low[axis][i] = centre - half[i];
-      squares.high[axis][i] = centre + half[i];
+      squares.low[axis][i] = (centre - half[i]) - low;
+      squares.high[axis][i] = (centre + half[i]) - low;
     }
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -11,6 +11,11 @@ namespace {
 
 enum class Place { inside, on_plane, mirrored };
 
+/// Node indices first ... last - 1.
+struct IndexRange {
+  int first = 0, last = 0;
+};
+
 /// Where a node index lies with respect to the mirror planes of one axis, and its image.
 struct AxisPlace {
   Place place = Place::inside;
@@ -19,13 +24,15 @@ struct AxisPlace {
   bool holds = false;
 };
 
-/// The planes lie at node 1 and node count - 2; one row of nodes beyond each is in use.
-AxisPlace axis_place(int index, int count, const SideLaw& low, const SideLaw& high) {
-  if (low.mirrors && index <= 2) {
-    return {index == 1 ? Place::on_plane : Place::mirrored, 2 - index, 1, low.holds};
+/// The planes lie one node inside the first and the last; one row of nodes beyond each is in use.
+AxisPlace axis_place(int index, IndexRange nodes, const SideLaw& low, const SideLaw& high) {
+  const int low_plane = nodes.first + 1, high_plane = nodes.last - 2;
+  if (low.mirrors && index <= low_plane + 1) {
+    return {index == low_plane ? Place::on_plane : Place::mirrored, 2 * low_plane - index, 1,
+            low.holds};
   }
-  if (high.mirrors && index >= count - 3) {
-    return {index == count - 2 ? Place::on_plane : Place::mirrored, 2 * (count - 2) - index, -1,
+  if (high.mirrors && index >= high_plane - 1) {
+    return {index == high_plane ? Place::on_plane : Place::mirrored, 2 * high_plane - index, -1,
             high.holds};
   }
   return {};
@@ -36,6 +43,11 @@ struct FieldNodes {
   SlabGrid* grid;
   int field;
 };
+
+/// Node indices along an axis.
+IndexRange axis_nodes(const GridShape& shape, int axis) {
+  return {axis + 1 == shape.dimension ? shape.first : 0, shape.nodes[axis]};
+}
 
 /// One set of mirror nodes: up to 2^Dim members with the signs that map their velocities onto the
 /// first one's.
@@ -217,7 +229,7 @@ bool is_mirrored(const Boundary& boundary, const GridShape& shape, int row, int 
   const auto on_axis = [&](int axis, int index) {
     const SideLaw& low = side_law(side_kind(boundary, axis, false, shape.dimension));
     const SideLaw& high = side_law(side_kind(boundary, axis, true, shape.dimension));
-    return axis_place(index, shape.nodes[axis], low, high).place != Place::inside;
+    return axis_place(index, axis_nodes(shape, axis), low, high).place != Place::inside;
   };
   const int x = lateral % shape.nodes[0], y = lateral / shape.nodes[0];
   return on_axis(shape.dimension - 1, row) || on_axis(0, x) ||
@@ -237,7 +249,7 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
     }
   }
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    if (!sides && row > 2 && row < shape.rows - 3) continue;
+    if (!sides && row > shape.first + 2 && row < shape.rows - 3) continue;
     for_each_place(grid, row, [&](int field, int lateral) {
       std::array<int, Dim> index;
       index[0] = lateral % shape.nodes[0];
@@ -247,11 +259,12 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
       std::array<bool, Dim> active{};
       bool any = false, original = true;
       for (int a = 0; a < Dim; ++a) {
-        place[a] = axis_place(index[a], shape.nodes[a], law[a][0], law[a][1]);
+        const IndexRange nodes = axis_nodes(shape, a);
+        place[a] = axis_place(index[a], nodes, law[a][0], law[a][1]);
         active[a] = place[a].place != Place::inside;
         any = any || active[a];
         // Each set is handled once, from its member inside the domain.
-        const bool beyond = index[a] == 0 || index[a] == shape.nodes[a] - 1;
+        const bool beyond = index[a] == nodes.first || index[a] == nodes.last - 1;
         original = original && !(active[a] && beyond);
       }
       if (!any || !original) return;

@@ -130,7 +130,7 @@ double node_capacity(const GridShape& shape, const Transfer& transfer, int row, 
   const double beyond = with_shape(transfer, [](const auto& s) { return s.share_beyond(); });
   double space = 1.0;
   for (int a = 0; a < shape.dimension; ++a) space *= shape.cell;
-  space = space * share_inside(row, shape.rows, false, beyond);
+  space = space * share_inside(row - shape.first, shape.rows - shape.first, false, beyond);
   space *= share_inside(lateral % shape.nodes[0], shape.nodes[0], shape.periodic[0], beyond);
   if (shape.dimension == 2) return space;
   return space * share_inside(lateral / shape.nodes[0], shape.nodes[1], shape.periodic[1], beyond);

@@ -40,6 +40,29 @@ TEST(GridShape, FollowsFromTheScene) {
   EXPECT_EQ(plane.stencil, 4);
 }
 
+// Rows keep their numbers where a grid moves up, and so do sums.
+TEST(SlabGrid, MovedUpHasTheSumsOfTheSameRows) {
+  const GridShape low = grid_shape(4, {7, 30}, {});
+  GridShape part = moved_up(grid_shape(4, {7, 16}, {}), 11);
+  EXPECT_EQ(part.first, 11);
+  EXPECT_EQ(part.rows, 27);
+  EXPECT_EQ(part.nodes, (std::array<int, 3>{7, 27, 1}));
+  SlabGrid serial(low, {0, low.rows}, MPI_COMM_SELF);
+  add_rows(0, row_buffer, serial);
+  for (const auto& starts : all_partitions(16, size(world), slab_limits(part))) {
+    std::vector<int> moved = starts;
+    for (int& row : moved) row += 11;
+    SlabGrid grid(part, moved, world);
+    add_rows(0, row_buffer, grid);
+    for (const int row : different_rows(grid, serial)) {
+      // Only the ends lack what rows beyond them add.
+      EXPECT_TRUE(row < 11 + 3 || row >= 27 - 3) << row;
+    }
+    EXPECT_EQ(grid.owner(11), 0);
+    EXPECT_EQ(grid.owner(26), size(world) - 1);
+  }
+}
+
 TEST(SlabLimits, KeepSeamAndMirrorNodesOnOneRank) {
   const SlabLimits quadratic = slab_limits(grid_shape(3, {9, 20}, {}));
   EXPECT_EQ(quadratic.first, 3);

@@ -96,4 +96,33 @@ TEST(Deposit, SameBitsInThreeDimensions) {
   expect_same_bits_however_dealt(layout, random_cloud<3>(layout.pixels, 700, random));
 }
 
+// A map that begins higher has the pixels of the whole one, though places in metres are no whole
+// pixels there.
+TEST(DepositBits, HigherMapHasThePixelsOfTheWholeOne) {
+  Random random{7};
+  const std::array<int, 2> pixels = {9, 40};
+  Cloud<2> cloud = random_cloud<2>(pixels, 900, random);
+  const double size = 0.1 * pixel;
+  for (auto& axis : cloud.position) {
+    for (double& x : axis) x *= 0.1;
+  }
+  for (double& m : cloud.mass) m *= 0.01;
+  const PixelScales scales = {exact_scales.density, 0.1 * exact_scales.max_side};
+  const PixelGrid<2> all(MPI_COMM_SELF, {pixels, size, {false}});
+  const PixelField<2> whole = deposit_cloud(cloud, scales, all);
+  const int low = 13, rows = 22;
+  const PixelGrid<2> some(MPI_COMM_SELF, {{9, rows}, size, {false}});
+  const PixelField<2> part =
+      deposit_cloud(cloud, {scales.density, scales.max_side, static_cast<double>(low)}, some);
+  const std::size_t start = static_cast<std::size_t>(low) * 9, count = rows * 9;
+  expect_same_bits<std::int64_t>(part.coverage, whole.coverage, start, "coverage");
+  const auto owned = [&](const auto& field) {
+    return std::vector(field.begin(), field.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    expect_same_bits(owned(part.values[k]), whole.values[k], start, "values");
+  }
+  EXPECT_GT(std::count(part.solid.begin(), part.solid.end(), 1), 50);
+}
+
 }  // namespace

@@ -3,9 +3,10 @@
 // complete their nodal sums.
 //
 // Node index i = 0 ... cells + 2 along every axis lies at (i - 1) * cell: one node of padding below
-// the domain and one above. Lateral axes are flattened into one row of `row_size` nodes. A particle
-// belongs to its stencil cell, named by the lowest node of its stencil; a row of stencil cells has
-// the index of its lowest node row, and each row belongs to exactly one rank.
+// the domain and one above. A window that has moved up has the rows first ... rows - 1. Lateral
+// axes are flattened into one row of `row_size` nodes. A particle belongs to its stencil cell,
+// named by the lowest node of its stencil; a row of stencil cells has the index of its lowest node
+// row, and each row belongs to exactly one rank.
 
 #include <array>
 #include <memory>
@@ -27,16 +28,20 @@ struct GridShape {
   double half_length = 0.0;           ///< cells, half a particle's edge (GIMP)
   int stencil = 4;                    ///< nodes per axis of a stencil
   double cell = 0.0;                  ///< m
-  std::array<int, 3> nodes{1, 1, 1};  ///< per axis: cells + 3
+  std::array<int, 3> nodes{1, 1, 1};  ///< per axis: cells + 3; of the shock axis: rows
   std::array<bool, 2> periodic{};     ///< lateral axes
   Triple velocity{};                  ///< m/s, of all nodes
   int row_size = 0;                   ///< nodes of one row
-  int rows = 0;                       ///< node rows along the shock axis
+  int first = 0;                      ///< lowest node row along the shock axis
+  int rows = 0;                       ///< one more than the highest
 };
 
 /// The grid of a scene. It rides with walls, so that they stay on a line of nodes. Throws
 /// InputError where PETSc cannot count its nodes.
 GridShape make_grid_shape(const Scene& scene);
+
+/// The same grid so many rows higher: its planes and the ends of its domain come along.
+GridShape moved_up(GridShape shape, int rows);
 
 /// Velocity of the nodes, m/s.
 template <int Dim>
@@ -52,7 +57,8 @@ SlabLimits slab_limits(const GridShape& shape);
 /// Nodes of one slab, in one velocity field or several. A class because it owns PETSc objects.
 class SlabGrid {
  public:
-  /// One field with all nodes. starts: parts + 1 row starts, see partition_rows. Collective.
+  /// One field with all nodes. starts: parts + 1 row starts, shape.first ... shape.rows.
+  /// Collective.
   SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm communicator);
   SlabGrid(const SlabGrid&) = delete;
   SlabGrid& operator=(const SlabGrid&) = delete;

@@ -19,7 +19,7 @@
 
 namespace poreshock {
 
-/// Size and sides of a map. Its low corner is the origin of the particle positions.
+/// Size and sides of a map. Its low corner is the origin of the particle positions, or above it.
 template <int Dim>
 struct PixelLayout {
   std::array<int, Dim> pixels{};         ///< per axis; the last axis is the shock axis
@@ -65,7 +65,7 @@ class PixelGrid {
 /// Particles of one rank, as columns of equal length; a particle may lie anywhere.
 template <int Dim>
 struct PixelSources {
-  std::array<std::span<const double>, Dim> position;  ///< m, from the low corner of the map
+  std::array<std::span<const double>, Dim> position;  ///< m
   std::span<const double> mass;                       ///< kg (per metre of depth in plane strain)
   std::span<const double> density;                    ///< kg/m^3
 };
@@ -74,6 +74,7 @@ struct PixelSources {
 struct PixelScales {
   double density = 1.0;   ///< kg/m^3, a typical density; weights resolve 2^-18 of it
   double max_side = 0.0;  ///< m, largest side of a particle square, which bounds its reach
+  double low = 0.0;       ///< pixels, a whole number: place of the map along the shock axis
 };
 
 /// A value of a map of particles reaches a threshold from this share of it below: at rest the
