@@ -17,16 +17,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 10> own_names = {
-    "scene.toml",  "history.csv", "snapshots.xdmf", "maps.xdmf", "morphology.h5",
+constexpr std::array<std::string_view, 11> own_names = {
+    "scene.toml",  "history.csv", "snapshots.xdmf", "maps.xdmf", "morphology.h5", "strips.h5",
     "profiles.h5", "probes.h5",   "timings.json",   "failed.h5", "report.html"};
 
 struct SeriesName {
   std::string_view prefix;
   int digits;
 };
-constexpr std::array<SeriesName, 4> own_series = {
-    {{"snapshot_", 6}, {"morphology_", 6}, {"profile_", 6}, {"checkpoint_", 9}}};
+constexpr std::array<SeriesName, 6> own_series = {{{"snapshot_", 6},
+                                                   {"morphology_", 6},
+                                                   {"profile_", 6},
+                                                   {"handed_over_", 6},
+                                                   {"strip_", 6},
+                                                   {"checkpoint_", 9}}};
 
 /// Calls visit(path) for every name a file of ours has, with `ending` added to it.
 template <class Visit>
@@ -142,6 +146,12 @@ void sync_records(const std::string& folder, std::int64_t first, MPI_Comm commun
     for_each_record(folder, [&](const NumberedFile& file) {
       if (file.number >= first) FileDescriptor(file.path, O_RDONLY).sync();
     });
+    // Strips have numbers of their own, and are few.
+    for (const std::string_view prefix : {"handed_over_", "strip_"}) {
+      for (const NumberedFile& file : numbered_files(folder, prefix, 6, ".h5")) {
+        FileDescriptor(file.path, O_RDONLY).sync();
+      }
+    }
     sync_folder(folder);
   });
 }

@@ -46,6 +46,16 @@ constexpr std::array<MomentumColumn, 5> momentum_columns = {{
     {"total_momentum", &HistoryRow::total_momentum},
 }};
 
+/// The same, only where the domain moves with the front.
+constexpr std::array<EnergyColumn, 2> moving_energy_columns = {{
+    {"handed_over", &HistoryRow::handed_over},
+    {"taken_in", &HistoryRow::taken_in},
+}};
+constexpr std::array<MomentumColumn, 2> moving_momentum_columns = {{
+    {"handed_over_momentum", &HistoryRow::handed_over_momentum},
+    {"taken_in_momentum", &HistoryRow::taken_in_momentum},
+}};
+
 /// Calls visit(name, unit, value) for all numbers of a row in the order of the file.
 template <class Visitor>
 void for_each_value(const HistoryRow& row, int dimension, Visitor&& visit) {
@@ -54,18 +64,28 @@ void for_each_value(const HistoryRow& row, int dimension, Visitor&& visit) {
   visit("step", "-", row.step);
   visit("dt", "s", row.dt);
   visit("particles", "-", row.particles);
-  for (const EnergyColumn& column : energy_columns) {
-    visit(column.name, plane ? "J/m" : "J", row.*column.value);
-  }
-  for (const MomentumColumn& column : momentum_columns) {
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-      visit(std::string(column.name) + "_" + "xyz"[a], plane ? "kg/s" : "kg m/s",
-            (row.*column.value)[a]);
+  const auto visit_energies = [&](const auto& columns) {
+    for (const EnergyColumn& column : columns) {
+      visit(column.name, plane ? "J/m" : "J", row.*column.value);
     }
-  }
+  };
+  const auto visit_momenta = [&](const auto& columns) {
+    for (const MomentumColumn& column : columns) {
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+        visit(std::string(column.name) + "_" + "xyz"[a], plane ? "kg/s" : "kg m/s",
+              (row.*column.value)[a]);
+      }
+    }
+  };
+  visit_energies(energy_columns);
+  visit_momenta(momentum_columns);
   visit("wall_force", plane ? "N/m" : "N", row.wall_force);
   visit("numerical_share", "-", numerical_share(row));
   visit("guards", "-", row.guards);
+  if (row.follows) {
+    visit_energies(moving_energy_columns);
+    visit_momenta(moving_momentum_columns);
+  }
   if (!row.contact) return;
   visit("contact_nodes", "-", row.contact->nodes);
   visit("crowded_nodes", "-", row.contact->crowded);
@@ -93,8 +113,9 @@ double numerical_share(const HistoryRow& row) {
   return heat > 0.0 ? numerical / heat : 0.0;
 }
 
-std::string history_header(int dimension, bool grains) {
+std::string history_header(int dimension, bool grains, bool follows) {
   HistoryRow row;
+  row.follows = follows;
   if (grains) row.contact.emplace();
   std::string header;
   for_each_value(row, dimension, [&](const std::string& name, const char* unit, auto) {

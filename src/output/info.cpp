@@ -67,7 +67,12 @@ std::string describe_hdf5(const std::string& path) {
 }
 
 bool is_history(const std::string& header, int dimension) {
-  return header == history_header(dimension, false) || header == history_header(dimension, true);
+  for (const bool grains : {false, true}) {
+    for (const bool follows : {false, true}) {
+      if (header == history_header(dimension, grains, follows)) return true;
+    }
+  }
+  return false;
 }
 
 std::string describe_history(const std::string& path, const std::string& text) {

@@ -12,8 +12,12 @@ namespace poreshock {
 
 namespace {
 
-TableFormat format() {
-  return {"morphology", "morphology.h5", "threshold", {"pixel"}};
+TableFormat format(MapPart part) {
+  const bool strip = part == MapPart::strip;
+  return {strip ? "strip" : "morphology",
+          strip ? "strips.h5" : "morphology.h5",
+          "threshold",
+          {"pixel"}};
 }
 
 void check_length(const MorphologyRecord& record, const std::string& name, std::size_t found,
@@ -56,6 +60,7 @@ RecordTables make_tables(const RecordStamp& stamp, const std::vector<MorphologyR
     table.axis_unit = record.unit;
     table.axis = record.threshold;
     table.curves.series["pixels"] = integer_series({record.pixels}, 0);
+    if (record.low) table.curves.series["low"] = {"m", 0, false, {}, {*record.low}};
     add_curves(record, table);
     add_spots(stamp.record, record, table);
   }
@@ -80,14 +85,15 @@ void require_field(const std::string& path, const std::vector<DatasetInfo>& data
 
 }  // namespace
 
-std::string morphology_name(std::int64_t record) {
-  return record_name(format(), record);
+std::string morphology_name(std::int64_t record, MapPart part) {
+  return record_name(format(part), record);
 }
 
 void write_morphology(const std::string& path, const RecordStamp& stamp,
-                      const std::vector<MorphologyRecord>& records, MPI_Comm communicator) {
+                      const std::vector<MorphologyRecord>& records, MPI_Comm communicator,
+                      MapPart part) {
   on_rank_zero(communicator, [&] {
-    write_tables(path, format(), stamp, make_tables(stamp, records), Durable::later);
+    write_tables(path, format(part), stamp, make_tables(stamp, records), Durable::later);
   });
 }
 
@@ -123,12 +129,12 @@ MorphologyCurves read_morphology(const std::string& path, const std::string& fie
 }
 
 void remove_morphology_from(const std::string& folder, std::int64_t first, MPI_Comm communicator) {
-  on_rank_zero(communicator, [&] { remove_tables_from(folder, format(), first); });
+  on_rank_zero(communicator, [&] { remove_tables_from(folder, format(MapPart::domain), first); });
 }
 
-std::int64_t collect_morphology(const std::string& folder, MPI_Comm communicator) {
+std::int64_t collect_morphology(const std::string& folder, MPI_Comm communicator, MapPart part) {
   std::int64_t merged = 0;
-  on_rank_zero(communicator, [&] { merged = collect_tables(folder, format()); });
+  on_rank_zero(communicator, [&] { merged = collect_tables(folder, format(part)); });
   check_mpi(MPI_Bcast(&merged, 1, MPI_INT64_T, 0, communicator), "MPI_Bcast");
   return merged;
 }

@@ -95,9 +95,10 @@ FileSpec file_spec(const Source<Dim>& source, std::uint64_t rows, std::int64_t f
   spec.attributes.push_back({"dimension", std::int64_t{Dim}});
   spec.attributes.push_back(
       {"thermal", input.scene.thermal == Thermal::paper ? "paper" : "conserving"});
-  // The low corner of the grid, m; positions less this are those on the grid.
+  // The low corner of the domain, m.
   for (int axis = 0; axis < Dim; ++axis) {
-    spec.attributes.push_back({std::string("origin_") + "xyz"[axis], input.shift[axis]});
+    const double low = input.shift[axis] + (axis + 1 < Dim ? 0.0 : input.bottom);
+    spec.attributes.push_back({std::string("origin_") + "xyz"[axis], low});
   }
   for_each_dataset(
       source, [&](std::string_view name, std::string_view unit, int components, const auto& value) {

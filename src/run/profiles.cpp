@@ -38,15 +38,17 @@ struct Place {
 
 /// What the places of all particles share.
 struct PlaceScales {
-  double inverse_area;  ///< 1/m^(Dim-1), of the face of a particle of the lattice
-  double inverse_cell;  ///< 1/m
-  double last_row;
+  double inverse_area;   ///< 1/m^(Dim-1), of the face of a particle of the lattice
+  double inverse_cell;   ///< 1/m
+  double low, last_row;  ///< of the domain
 };
 
 template <int Dim>
-PlaceScales place_scales(const Scene& scene) {
+PlaceScales place_scales(const Simulation<Dim>& sim) {
+  const Scene& scene = sim.scene;
   const double spacing = scene.domain.cell / scene.sample.particles_per_cell;
   return {1.0 / (Dim == 2 ? spacing : spacing * spacing), 1.0 / scene.domain.cell,
+          static_cast<double>(sim.window.first),
           static_cast<double>(scene.domain.cells[Dim - 1] - 1)};
 }
 
@@ -59,8 +61,9 @@ Place place_of(const Particles<Dim>& particles, std::size_t p, const PlaceScales
   const double length = std::min(1.0, volume * scales.inverse_area * scales.inverse_cell);
   const double low = particles.position[Dim - 1][p] * scales.inverse_cell - 0.5 * length;
   const double row = std::floor(low);
-  return {static_cast<std::size_t>(std::clamp(row, 0.0, scales.last_row)),
-          static_cast<std::size_t>(std::clamp(row + 1.0, 0.0, scales.last_row)),
+  const double inside = row - scales.low;
+  return {static_cast<std::size_t>(std::clamp(inside, 0.0, scales.last_row)),
+          static_cast<std::size_t>(std::clamp(inside + 1.0, 0.0, scales.last_row)),
           std::min(1.0, (row + 1.0 - low) / length)};
 }
 
@@ -87,7 +90,7 @@ void add_particle(const Particles<Dim>& particles, std::size_t p, double share, 
 template <int Dim>
 std::vector<Int128> row_sums(const Simulation<Dim>& sim, const std::vector<double>& temperature,
                              const Quanta& per) {
-  const PlaceScales scales = place_scales<Dim>(sim.scene);
+  const PlaceScales scales = place_scales(sim);
   constexpr std::size_t count = momentum + Dim;
   std::vector<Int128> sums(count * static_cast<std::size_t>(sim.scene.domain.cells[Dim - 1]));
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
@@ -106,7 +109,7 @@ template <int Dim>
 std::vector<Int128> fluctuation_sums(const Simulation<Dim>& sim,
                                      const std::array<std::vector<double>, 3>& mean,
                                      const Quanta& per) {
-  const PlaceScales scales = place_scales<Dim>(sim.scene);
+  const PlaceScales scales = place_scales(sim);
   const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
   const Particles<Dim>& particles = sim.particles;
   std::vector<Int128> sums(fluctuation_sum_count * mean[0].size());
@@ -216,7 +219,7 @@ Profile measure_profile(const Simulation<Dim>& sim, std::int64_t& floored) {
                               temperature);
   Profile profile;
   resize<Dim>(static_cast<std::size_t>(rows), profile);
-  profile.shift = grid_shift(sim)[Dim - 1];
+  profile.shift = low_corner(sim)[Dim - 1];
   for (int j = 0; j < rows; ++j)
     profile.height[static_cast<std::size_t>(j)] = (j + 0.5) * domain.cell;
   divide_sums<Dim>(row_sums(sim, temperature, per), per, row_volume, profile);

@@ -9,7 +9,6 @@
 #include "poreshock/output/profile_file.hpp"
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
-#include "poreshock/run/measure.hpp"
 #include "poreshock/run/profiles.hpp"
 #include "poreshock/solver/start.hpp"
 
@@ -32,17 +31,13 @@ std::int64_t record_number(const Simulation<Dim>& sim) {
 template <int Dim>
 void write_morphology_record(const PixelField<Dim>& map, Simulation<Dim>& sim,
                              Recorder<Dim>& recorder) {
-  const Scene& scene = sim.scene;
-  const Vector<Dim> shift = map_shift(sim);
-  std::vector<MorphologyRecord> records;
-  for (std::size_t f = 0; f < scene.morphology.fields.size(); ++f) {
-    const MorphologyField& field = scene.morphology.fields[f];
-    records.push_back(measure<Dim>(map, f, field, std::string(derived_unit(field.name)),
-                                   scene.morphology, shift, sim.communicator));
-  }
+  const std::vector<MorphologyRecord> records = measure_fields(map, sim);
   const std::int64_t number = record_number(sim);
-  const RecordStamp stamp = {
-      number, sim.clock.step, sim.clock.time, sim.scene_text, {{"pixel", scene.morphology.pixel}}};
+  const RecordStamp stamp = {number,
+                             sim.clock.step,
+                             sim.clock.time,
+                             sim.scene_text,
+                             {{"pixel", sim.scene.morphology.pixel}}};
   const std::string name = morphology_name(number);
   const auto write = [path = recorder.folder + "/" + name, stamp, records,
                       communicator = sim.communicator] {
@@ -69,8 +64,17 @@ void write_profile_record(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
 
 template <int Dim>
 SnapshotInput<Dim> snapshot_input(const Simulation<Dim>& sim) {
-  return {sim.scene,      sim.scene_text, sim.materials,   sim.particles,        record_number(sim),
-          sim.clock.step, sim.clock.time, grid_shift(sim), particle_colours(sim)};
+  return {sim.scene,
+          sim.scene_text,
+          sim.materials,
+          sim.particles,
+          record_number(sim),
+          sim.clock.step,
+          sim.clock.time,
+          grid_shift(sim),
+          particle_colours(sim),
+          {},
+          sim.window.first * sim.scene.domain.cell};
 }
 
 template <int Dim>
@@ -126,6 +130,7 @@ void finish_records(const std::string& last_snapshot, MPI_Comm communicator,
   }
   collect_morphology(recorder.folder, communicator);
   collect_profiles(recorder.folder, communicator);
+  collect_morphology(recorder.folder, communicator, MapPart::strip);
   sync_records(recorder.folder, recorder.first_unforced, communicator);
 }
 
@@ -135,13 +140,12 @@ template <int Dim>
 std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim) {
   const Scene& scene = sim.scene;
   if (scene.morphology.every <= 0.0) return nullptr;
-  PixelLayout<Dim> layout;
-  layout.pixel_size = scene.morphology.pixel;
-  for (int a = 0; a < Dim; ++a) {
-    layout.pixels[a] = static_cast<int>(std::lround(scene.domain.size[a] / layout.pixel_size));
-    if (a + 1 < Dim) layout.periodic[a] = scene.domain.periodic[a];
+  if (follows_front(scene)) {
+    // A strip that is too thin is better refused now than when it is handed over.
+    PixelGrid<Dim>(sim.communicator, map_layout<Dim>(scene, strip_heights(scene).first));
   }
-  return std::make_unique<PixelGrid<Dim>>(sim.communicator, layout);
+  return std::make_unique<PixelGrid<Dim>>(sim.communicator,
+                                          map_layout<Dim>(scene, scene.domain.cells[Dim - 1]));
 }
 
 template <int Dim>
@@ -150,7 +154,7 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
   Recorder<Dim> recorder;
   recorder.folder = folder;
   recorder.history = std::make_shared<RowFile>(
-      folder + "/history.csv", history_header(Dim, has_contact(sim)), sim.communicator,
+      folder + "/history.csv", history_header(sim), sim.communicator,
       restarted ? std::optional<std::int64_t>(sim.clock.step) : std::nullopt);
   recorder.probes = open_probes(folder, restarted, sim);
   recorder.pixels = std::move(pixels);

@@ -18,11 +18,13 @@
 #include "poreshock/run/progress.hpp"
 #include "poreshock/run/records.hpp"
 #include "poreshock/run/start_warnings.hpp"
+#include "poreshock/run/strips.hpp"
 #include "poreshock/sample/fill.hpp"
 #include "poreshock/scene/read_scene.hpp"
 #include "poreshock/solver/ownership.hpp"
 #include "poreshock/solver/sleep.hpp"
 #include "poreshock/solver/start.hpp"
+#include "poreshock/solver/window.hpp"
 
 namespace poreshock {
 
@@ -39,7 +41,7 @@ EnergyStatus energy_status(const Ledger& ledger, const HistoryRow& row) {
 /// Refuses records that this run could not go on with, before any is cut.
 template <int Dim>
 void require_same_records(const std::string& folder, const Simulation<Dim>& sim) {
-  require_rows(folder + "/history.csv", history_header(Dim, has_contact(sim)), sim.communicator);
+  require_rows(folder + "/history.csv", history_header(sim), sim.communicator);
   for (const Probe& probe : sim.scene.probes) {
     require_rows(folder + "/" + probe_file_name(probe.name), probe_header(Dim), sim.communicator);
   }
@@ -131,7 +133,8 @@ bool synchronise(const RunOptions& options, const Progress& progress, Simulation
 
 /// One step with its housekeeping; true when the run has been asked to stop.
 template <int Dim>
-bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
+bool step(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& recorder,
+          Progress& progress) {
   const double dt = next_time_step(sim.scene, sim.clock);
   advance(sim, dt);
   progress.particle_steps += static_cast<std::int64_t>(sim.particles.size());
@@ -141,6 +144,8 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Progress& progress) {
   // no row to go to.
   const bool stop_asked = synchronise(options, progress, sim);
   migrate(sim);
+  while (must_hand_over(sim)) leave_strip(sim, recorder);
+  take_in(sim);
   const bool may_rebalance = sim.clock.step % rebalance_interval == 0;
   if (may_rebalance) rebalance(sim);
   if (may_rebalance || sim.clock.on_beat) note_memory(sim.communicator, progress);
@@ -159,10 +164,10 @@ void finish(RunEnd end, const RunOptions& options, Simulation<Dim>& sim, Recorde
     warn(std::string(failure.what()) + "; timings.json is left out", sim.communicator);
   }
   const Ledger& l = sim.ledger;
-  std::vector<std::int64_t> counts = {l.escaped_particles, l.shortened};
+  std::vector<std::int64_t> counts = {l.escaped.particles, l.shortened};
   for (const GuardCounter& guard : guard_counters) counts.push_back(l.guards.*guard.count);
   sum(counts, sim.communicator);
-  std::vector<Int128> escaped = {l.escaped_mass};
+  std::vector<Int128> escaped = {l.escaped.mass};
   sum(escaped, sim.communicator);
   if (rank(sim.communicator) != 0) return;
   if (!options.quiet) std::printf("\n%s", timings_table(timings).c_str());
@@ -231,7 +236,7 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
       stop_with_checkpoint(sim, recorder);
       return RunEnd::stopped;
     }
-    stop_asked = step(options, sim, progress);
+    stop_asked = step(options, sim, recorder, progress);
     note_probes(sim, recorder.probes);
     const bool last = at_end(limits, sim.clock);
     if (sim.clock.on_beat || last) record(last, sim, recorder);

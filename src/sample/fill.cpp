@@ -236,6 +236,19 @@ void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particl
   set_particle_void_fraction(report);
 }
 
+template <int Dim>
+void fill_layers(const Scene& scene, const SampleReport& placed, LatticeRange range,
+                 Particles<Dim>& particles) {
+  const Lattice lattice = make_lattice(scene);
+  GrainLayout layout;
+  layout.grains = placed.grains;
+  SampleReport report;
+  report.voids = placed.voids;
+  const std::vector<std::int32_t> owners =
+      find_owners(scene, layout, lattice, range, MPI_COMM_SELF, report);
+  make_particles(scene, lattice, range, owners, layout.grains, particles);
+}
+
 SampleReport total(const SampleReport& report, MPI_Comm communicator) {
   SampleReport result = report;
   std::vector<std::int64_t> counts = {report.lattice_sites, report.particles,
@@ -269,6 +282,8 @@ SampleReport total(const SampleReport& report, MPI_Comm communicator) {
   return result;
 }
 
+template void fill_layers<2>(const Scene&, const SampleReport&, LatticeRange, Particles<2>&);
+template void fill_layers<3>(const Scene&, const SampleReport&, LatticeRange, Particles<3>&);
 template void fill<2>(const Scene&, LatticeRange, MPI_Comm, Particles<2>&, SampleReport&);
 template void fill<3>(const Scene&, LatticeRange, MPI_Comm, Particles<3>&, SampleReport&);
 

@@ -69,6 +69,9 @@ Lattice make_lattice(const Scene& scene) {
     lattice.sites[axis] = static_cast<std::int64_t>(scene.domain.cells[axis]) * per_cell;
   }
   if (scene.sample.kind != SampleKind::none) {
+    std::int64_t& layers = lattice.sites[lattice.shock_axis()];
+    layers = std::max(layers,
+                      static_cast<std::int64_t>(std::ceil(scene.sample.height / lattice.spacing)));
     const auto below = [&](std::int64_t k) {
       return site_coordinate(lattice, k) < scene.sample.height;
     };
@@ -79,6 +82,14 @@ Lattice make_lattice(const Scene& scene) {
     while (n < lattice.layers() && below(n)) ++n;
   }
   return lattice;
+}
+
+std::int64_t layer_sites(const Scene& scene) {
+  return make_lattice(scene).layer_size();
+}
+
+double layer_height(const Scene& scene, std::int64_t layer) {
+  return site_coordinate(make_lattice(scene), layer);
 }
 
 std::int64_t lattice_layers(const Scene& scene) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <string>
 
@@ -96,10 +95,11 @@ void check_sample(const Scene& scene, Report& report) {
     return;
   }
   const double height = scene.domain.size[scene.dimension - 1];
-  if (good(report, {"domain.size", "sample.height"}) && sample.height > height) {
+  if (good(report, {"domain.size", "sample.height", "time"}) && sample.height > height &&
+      !follows_front(scene)) {
     add_problem("sample.height",
                 "found " + plain_number(sample.height) + " m, allowed up to the domain height of " +
-                    plain_number(height) + " m",
+                    plain_number(height) + " m, or more with time.follow = \"front\"",
                 report);
   }
   if (sample.kind == SampleKind::random_voids) check_voids_of_sample(sample, report);

@@ -26,7 +26,8 @@ void check_grains(const Scene& scene, Report& report);
 /// The part of it about probes.
 void check_probes(const Scene& scene, Report& report);
 
-/// The part of it about [transfer] and [conduction]: combinations that cannot work.
+/// The part of it about [transfer], [conduction], contact.self and time.follow: combinations that
+/// cannot work.
 void check_scheme(const Scene& scene, Report& report);
 
 }  // namespace poreshock::scene_text

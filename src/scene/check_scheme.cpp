@@ -1,6 +1,7 @@
 #include <string>
 
 #include "check_scene.hpp"
+#include "check_window.hpp"
 #include "poreshock/scene/transfer_scheme.hpp"
 #include "rules.hpp"
 
@@ -105,6 +106,7 @@ void check_scheme(const Scene& scene, Report& report) {
   check_transfer(scene, report);
   check_conduction(scene, report);
   check_self_contact(scene, report);
+  check_window(scene, report);
 }
 
 }  // namespace poreshock::scene_text

@@ -110,6 +110,10 @@ void visit_time(Visitor& visitor, Scene& scene) {
                   "share of a cell that a wave may cross in a step; up to 0.9 with pic and flip"});
   integer(visitor, "max_steps", time.max_steps, {not_negative, "", "0 = no limit"});
   visitor.flag("sleep", time.sleep, {"true where rows that no wave has reached only move"});
+  const Names<Follow> follows{{"nothing", Follow::nothing}, {"front", Follow::front}};
+  choice(visitor, "follow", time.follow, follows,
+         {"front: the domain is a window that moves with the front through a sample that may be "
+          "higher"});
 }
 
 template <typename Visitor>

@@ -27,15 +27,18 @@ std::int64_t numbers_not_finite(const Particles<Dim>& particles) {
 }
 
 template <int Dim>
-Unsound count_unsound(const Scene& scene, const Particles<Dim>& particles) {
+Unsound count_unsound(const Simulation<Dim>& sim) {
+  const Scene& scene = sim.scene;
+  const Particles<Dim>& particles = sim.particles;
+  const double bottom = sim.window.first * scene.domain.cell;
   Unsound found;
   found.numbers = numbers_not_finite(particles);
   const auto materials = static_cast<std::int32_t>(scene.materials.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     bool inside = true;
     for (int a = 0; a < Dim; ++a) {
-      const double x = particles.position[a][p];
-      inside = inside && x >= 0.0 && x <= scene.domain.size[a];
+      const double x = particles.position[a][p], low = a + 1 < Dim ? 0.0 : bottom;
+      inside = inside && x >= low && x <= low + scene.domain.size[a];
     }
     if (!inside) ++found.places;
     if (!(particles.mass[p] > 0.0 && particles.density[p] > 0.0)) ++found.masses;
@@ -52,12 +55,11 @@ bool sound_clock(const RunState& state) {
 }  // namespace
 
 template <int Dim>
-void require_sound_state(const std::string& path, const Scene& scene,
-                         const ParticleOptions& expected, const RunState& state,
-                         const Particles<Dim>& particles, MPI_Comm communicator) {
-  const Unsound mine = count_unsound(scene, particles);
+void require_sound_state(const std::string& path, const Simulation<Dim>& sim,
+                         const ParticleOptions& expected, const RunState& state) {
+  const Unsound mine = count_unsound(sim);
   std::vector<std::int64_t> counts = {mine.numbers, mine.places, mine.masses, mine.materials};
-  sum(counts, communicator);
+  sum(counts, sim.communicator);
   std::string found;
   const auto add = [&](std::int64_t count, const char* what) {
     if (count == 0) return;
@@ -68,7 +70,7 @@ void require_sound_state(const std::string& path, const Scene& scene,
   add(counts[2], "particles without mass or density");
   add(counts[3], "particles of a material that the scene does not have");
   if (!sound_clock(state)) found += found.empty() ? "a clock before zero" : ", a clock before zero";
-  if (expected != particles.options) {
+  if (expected != sim.particles.options) {
     found += std::string(found.empty() ? "" : ", ") + "columns that do not fit the scene";
   }
   if (found.empty()) return;
@@ -76,9 +78,9 @@ void require_sound_state(const std::string& path, const Scene& scene,
                    "; restart from another checkpoint");
 }
 
-template void require_sound_state<2>(const std::string&, const Scene&, const ParticleOptions&,
-                                     const RunState&, const Particles<2>&, MPI_Comm);
-template void require_sound_state<3>(const std::string&, const Scene&, const ParticleOptions&,
-                                     const RunState&, const Particles<3>&, MPI_Comm);
+template void require_sound_state<2>(const std::string&, const Simulation<2>&,
+                                     const ParticleOptions&, const RunState&);
+template void require_sound_state<3>(const std::string&, const Simulation<3>&,
+                                     const ParticleOptions&, const RunState&);
 
 }  // namespace poreshock

@@ -21,8 +21,8 @@ EndSurfaces find_ends(const Scene& scene) {
   EndSurfaces ends;
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   const int per_cell = scene.sample.particles_per_cell;
+  ends.layer = layer_sites(scene);
   for (std::size_t a = 0; a + 1 < dimension; ++a) {
-    ends.layer *= static_cast<std::int64_t>(scene.domain.cells[a]) * per_cell;
     ends.area *= scene.domain.cell / per_cell;
   }
   ends.low = backing_of(scene, scene.boundary.low);

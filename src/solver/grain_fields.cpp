@@ -92,6 +92,11 @@ void find_grains(Simulation<Dim>& sim) {
   } else {
     limits[0] = limits[1] = std::numeric_limits<std::int32_t>::min();
   }
+  if (follows_front(sim.scene) && !sim.sample.grains.empty()) {
+    // Those above the window will come.
+    const std::size_t last = first_grain_number(sim.scene) + sim.sample.grains.size() - 1;
+    limits[1] = std::max(limits[1], static_cast<std::int32_t>(last));
+  }
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, limits, 2, MPI_INT32_T, MPI_MAX, sim.communicator),
             "MPI_Allreduce of grain numbers");
   const bool self = sim.scene.contact.self;

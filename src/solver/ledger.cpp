@@ -45,18 +45,29 @@ void for_each_sum(LedgerType& l, Visitor&& visit) {
   visit(l.viscous_heat, &HistoryRow::viscous_heat, 0);
   visit(l.transfer_heat, &HistoryRow::filter_heat, 0);
   visit(l.conduction, &HistoryRow::conduction, 0);
-  visit(l.escaped_energy, &HistoryRow::escaped, 1);
-  visit(l.escaped_mass, nullptr, 0);
-  visit(l.escaped_momentum, &HistoryRow::escaped_momentum, 1);
+  visit(l.escaped.energy, &HistoryRow::escaped, 1);
+  visit(l.escaped.mass, nullptr, 0);
+  visit(l.escaped.momentum, &HistoryRow::escaped_momentum, 1);
   visit(l.row_wall_impulse, nullptr, 0);
+  if (!l.follows) return;
+  visit(l.handed_over.energy, &HistoryRow::handed_over, 1);
+  visit(l.handed_over.mass, nullptr, 0);
+  visit(l.handed_over.momentum, &HistoryRow::handed_over_momentum, 1);
+  visit(l.taken_in.energy, &HistoryRow::taken_in, -1);
+  visit(l.taken_in.mass, nullptr, 0);
+  visit(l.taken_in.momentum, &HistoryRow::taken_in_momentum, -1);
+  visit(l.handed_plastic_work, &HistoryRow::plastic_work, 0);
 }
 
 /// Visits all counters in the order of the checkpoint format.
 template <class LedgerType, class Visitor>
 void for_each_counter(LedgerType& l, Visitor&& visit) {
-  visit(l.escaped_particles);
+  visit(l.escaped.particles);
   for (const GuardCounter& guard : guard_counters) visit(l.guards.*guard.count);
   visit(l.shortened);
+  if (!l.follows) return;
+  visit(l.handed_over.particles);
+  visit(l.taken_in.particles);
 }
 
 /// The numbers of a sum: one of energy or mass, or the components of momentum.
@@ -118,7 +129,7 @@ HistoryRow make_row(const Ledger& ledger, const std::vector<Int128>& sums,
     if constexpr (std::is_null_pointer_v<Place>) {
       ++at;
     } else if constexpr (std::is_same_v<Sum, Int128>) {
-      row.*place = in(sums[at], ledger.energy_quantum);
+      row.*place += in(sums[at], ledger.energy_quantum);
       total += sign * sums[at++];
     } else {
       for (std::size_t a = 0; a < 3; ++a) {
@@ -157,6 +168,7 @@ Ledger make_ledger(const Scene& scene, const std::vector<Material>& materials,
     for (const double v : body.velocity) speed = std::max(speed, std::abs(v));
   }
   Ledger ledger;
+  ledger.follows = follows_front(scene);
   set_quanta(power_of_two_below(heaviest * speed * speed) / quanta_per_particle,
              power_of_two_below(heaviest * speed) / quanta_per_particle, ledger);
   return ledger;
@@ -182,6 +194,7 @@ HistoryRow take_stock(const Scene& scene, const std::vector<Material>& materials
   HistoryRow row = make_row(ledger, sums, visit_sums);
   row.particles = counts[0];
   row.guards = counts[1];
+  row.follows = ledger.follows;
   return row;
 }
 
@@ -199,16 +212,16 @@ void mark_row(int dimension, double time, Ledger& ledger) {
 }
 
 template <int Dim>
-void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia, Ledger& ledger) {
-  ++ledger.escaped_particles;
-  ledger.escaped_mass += quantise(particles.mass[p], 1.0 / mass_quantum(ledger));
-  ledger.escaped_energy += quantise(particles.mass[p] * kinetic_energy(particles, inertia, p),
-                                    ledger.nodes.inverse_energy_quantum);
-  ledger.escaped_energy += quantise(particles.mass[p] * particles.internal_energy[p],
-                                    ledger.nodes.inverse_energy_quantum);
+void book(const Particles<Dim>& particles, std::size_t p, double inertia, const Ledger& ledger,
+          Passage& passage) {
+  const double mass = particles.mass[p], per_quantum = ledger.nodes.inverse_energy_quantum;
+  ++passage.particles;
+  passage.mass += quantise(mass, 1.0 / mass_quantum(ledger));
+  passage.energy += quantise(mass * kinetic_energy(particles, inertia, p), per_quantum);
+  passage.energy += quantise(mass * particles.internal_energy[p], per_quantum);
   for (int a = 0; a < Dim; ++a) {
-    ledger.escaped_momentum[a] += quantise(particles.mass[p] * particles.velocity[a][p],
-                                           ledger.nodes.inverse_momentum_quantum);
+    passage.momentum[a] +=
+        quantise(mass * particles.velocity[a][p], ledger.nodes.inverse_momentum_quantum);
   }
 }
 
@@ -245,7 +258,7 @@ template HistoryRow take_stock<2>(const Scene&, const std::vector<Material>&, co
                                   const Ledger&, MPI_Comm);
 template HistoryRow take_stock<3>(const Scene&, const std::vector<Material>&, const Particles<3>&,
                                   const Ledger&, MPI_Comm);
-template void book_escape<2>(const Particles<2>&, std::size_t, double, Ledger&);
-template void book_escape<3>(const Particles<3>&, std::size_t, double, Ledger&);
+template void book<2>(const Particles<2>&, std::size_t, double, const Ledger&, Passage&);
+template void book<3>(const Particles<3>&, std::size_t, double, const Ledger&, Passage&);
 
 }  // namespace poreshock

@@ -20,41 +20,50 @@ constexpr std::int64_t storage_interval = 20;
 template <int Dim>
 int row_of(const Particles<Dim>& particles, std::size_t p, const GridShape& shape,
            double inverse_cell) {
-  return stencil_base(shape.stencil, particles.position[Dim - 1][p] * inverse_cell, shape.rows);
+  // What lies on the lowest plane may come out a rounding below it.
+  return std::max(
+      shape.first,
+      stencil_base(shape.stencil, particles.position[Dim - 1][p] * inverse_cell, shape.rows));
 }
+
+/// Where the domain ends along an axis, m.
+struct AxisEnds {
+  double low = 0.0, high = 0.0;
+};
 
 /// Brings one coordinate outside back into the domain where its sides say so; false when it has
 /// escaped.
-bool confine(const SideLaw& low, const SideLaw& high, double length, double& x,
+bool confine(const SideLaw& low, const SideLaw& high, AxisEnds ends, double& x,
              std::int64_t& crossings) {
   if (low.wraps) {
-    x += x < 0.0 ? length : -length;
+    x += x < 0.0 ? ends.high : -ends.high;
     // Rounding can land on the far end, which is the near one.
-    if (x >= length) x = 0.0;
+    if (x >= ends.high) x = 0.0;
     return x >= 0.0;
   }
-  if (x < 0.0) {
+  if (x < ends.low) {
     if (low.lets_out) return false;
-    x = 0.0;
+    x = ends.low;
     ++crossings;
-  } else if (x >= length) {
+  } else if (x >= ends.high) {
     if (high.lets_out) return false;
-    x = std::nextafter(length, 0.0);
+    x = std::nextafter(ends.high, 0.0);
     ++crossings;
   }
   return true;
 }
 
 template <int Dim>
-bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
+bool confine(const Scene& scene, double bottom, std::size_t p, Particles<Dim>& particles,
              std::int64_t& crossings) {
   for (int a = 0; a < Dim; ++a) {
     double& x = particles.position[a][p];
-    const double length = scene.domain.size[a];
-    if (x >= 0.0 && x < length) continue;
+    const double low_end = a + 1 < Dim ? 0.0 : bottom;
+    const AxisEnds ends = {low_end, low_end + scene.domain.size[a]};
+    if (x >= ends.low && x < ends.high) continue;
     const SideLaw& low = side_law(side_kind(scene.boundary, a, false, Dim));
     const SideLaw& high = side_law(side_kind(scene.boundary, a, true, Dim));
-    if (!confine(low, high, length, x, crossings)) return false;
+    if (!confine(low, high, ends, x, crossings)) return false;
   }
   return true;
 }
@@ -62,11 +71,12 @@ bool confine(const Scene& scene, std::size_t p, Particles<Dim>& particles,
 /// Predicted seconds of a step per row, the same on all ranks. Collective.
 template <int Dim>
 std::vector<double> row_seconds(const Simulation<Dim>& sim) {
-  const GridShape shape = make_grid_shape(sim.scene);
+  const GridShape shape = window_shape(sim);
   const double inverse_cell = 1.0 / shape.cell;
-  std::vector<std::int64_t> particles(static_cast<std::size_t>(shape.rows), 0);
+  std::vector<std::int64_t> particles(static_cast<std::size_t>(shape.rows - shape.first), 0);
   for (std::size_t p = 0; p < sim.particles.size(); ++p) {
-    ++particles[static_cast<std::size_t>(row_of<Dim>(sim.particles, p, shape, inverse_cell))];
+    const int row = row_of<Dim>(sim.particles, p, shape, inverse_cell);
+    ++particles[static_cast<std::size_t>(row - shape.first)];
   }
   sum(particles, sim.communicator);
   std::vector<std::int64_t> contact_nodes;
@@ -74,21 +84,24 @@ std::vector<double> row_seconds(const Simulation<Dim>& sim) {
   if (has_contact(sim)) {
     contact_nodes.assign(particles.size(), 0);
     for (const NodePlace& node : sim.grain_fields.shared) {
-      if (node.row < sim.grid->last_row()) ++contact_nodes[static_cast<std::size_t>(node.row)];
+      if (node.row < shape.first || node.row >= sim.grid->last_row()) continue;
+      ++contact_nodes[static_cast<std::size_t>(node.row - shape.first)];
     }
     sum(contact_nodes, sim.communicator);
   }
-  return predicted_row_seconds(particles, contact_nodes, sim.cells.awake, sim.work.unit_seconds);
+  const RowRange awake = {sim.cells.awake.first - shape.first, sim.cells.awake.last - shape.first};
+  return predicted_row_seconds(particles, contact_nodes, awake, sim.work.unit_seconds);
 }
 
-/// Gives each rank its slab, grids and particles. Collective.
+/// Gives each rank its slab, grids and particles; starts count from the lowest row. Collective.
 template <int Dim>
-void cut_slabs(const std::vector<int>& starts, Simulation<Dim>& sim) {
+void cut_slabs(std::vector<int> starts, Simulation<Dim>& sim) {
   const double begin = MPI_Wtime();
   {
     const Phase phase(sim.phases, PhaseName::rebalance);
-    const GridShape shape = make_grid_shape(sim.scene);
+    const GridShape shape = window_shape(sim);
     const double inverse_cell = 1.0 / shape.cell;
+    for (int& row : starts) row += shape.first;
     release_fields(sim.grain_fields);
     sim.grid.reset();
     sim.heat.reset();
@@ -157,12 +170,13 @@ void migrate(Simulation<Dim>& sim) {
   const Phase phase(sim.phases, PhaseName::migrate);
   const GridShape& shape = sim.grid->shape();
   const double inverse_cell = 1.0 / shape.cell;
+  const double bottom = shape.first * shape.cell;
   const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
   Particles<Dim>& particles = sim.particles;
   std::vector<std::uint32_t> down, up, gone;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    if (!confine<Dim>(sim.scene, p, particles, sim.ledger.guards.wall_crossing)) {
-      book_escape(particles, p, inertia, sim.ledger);
+    if (!confine<Dim>(sim.scene, bottom, p, particles, sim.ledger.guards.wall_crossing)) {
+      book(particles, p, inertia, sim.ledger, sim.ledger.escaped);
       gone.push_back(static_cast<std::uint32_t>(p));
       continue;
     }
@@ -175,9 +189,9 @@ void migrate(Simulation<Dim>& sim) {
 
 template <int Dim>
 void distribute(Simulation<Dim>& sim) {
-  cut_slabs(partition_rows(row_seconds(sim), size(sim.communicator),
-                           slab_limits(make_grid_shape(sim.scene))),
-            sim);
+  cut_slabs(
+      partition_rows(row_seconds(sim), size(sim.communicator), slab_limits(window_shape(sim))),
+      sim);
 }
 
 template <int Dim>
@@ -200,7 +214,9 @@ void rebalance(Simulation<Dim>& sim) {
     weights = row_seconds(sim);
     best = partition_rows(weights, size(sim.communicator), slab_limits(sim.grid->shape()));
   }
-  if (cutting_pays(heaviest(weights, sim.grid->starts()), heaviest(weights, best), steps, work)) {
+  std::vector<int> now = sim.grid->starts();
+  for (int& row : now) row -= sim.grid->shape().first;
+  if (cutting_pays(heaviest(weights, now), heaviest(weights, best), steps, work)) {
     cut_slabs(best, sim);
     ++work.cuts;
   }

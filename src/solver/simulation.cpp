@@ -67,7 +67,8 @@ void conduct(double dt, Simulation<Dim>& sim) {
 
 /// What clock, ledger and meter take from a step, and where waves have come.
 template <int Dim>
-void close_step(StepReport report, Simulation<Dim>& sim) {
+void close_step(double dt, StepReport report, Simulation<Dim>& sim) {
+  move_layers(dt, sim);
   const std::int64_t asleep = sleeping_particles(sim.cells, *sim.grid);
   count_work(std::ssize(sim.particles.id), asleep, std::ssize(sim.grain_fields.shared), sim.work);
   // Those asleep are still in the state that the first limit comes from.
@@ -131,7 +132,7 @@ void advance(Simulation<Dim>& sim, double dt) {
     });
   });
   move_sleeping(dt, sim.cells, grid, particles);
-  close_step(report, sim);
+  close_step(dt, report, sim);
 }
 
 template StressSettings<2> stress_settings<2>(const Simulation<2>&);

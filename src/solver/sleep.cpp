@@ -14,25 +14,10 @@ namespace {
 /// motion stays a thousand times below it.
 constexpr double least_disturbance = 1.0e-12;
 
-/// True where the state before the first wave is one of uniform motion without stress that nothing
-/// but waves from the ends changes.
-bool can_sleep(const Scene& scene) {
-  for (const double a : scene.body_force) {
-    if (a != 0.0) return false;
-  }
-  for (int a = 0; a + 1 < scene.dimension; ++a) {
-    if (side_law(scene.boundary.lateral[a]).mirrors) return false;
-  }
-  for (const MaterialParameters& material : scene.materials) {
-    if (scene.conduction.on && material.T0 != scene.materials.front().T0) return false;
-  }
-  return scene.time.sleep;
-}
-
 /// Rows next to an end that stops material, where the first wave starts.
 RowRange rows_at_ends(const Boundary& boundary, const GridShape& shape) {
   RowRange rows = {std::numeric_limits<int>::max(), 0};
-  if (side_law(boundary.low.kind).mirrors) rows = {0, shape.stencil};
+  if (side_law(boundary.low.kind).mirrors) rows = {shape.first, shape.first + shape.stencil};
   if (side_law(boundary.high.kind).mirrors) {
     rows = {std::min(rows.first, shape.rows - shape.stencil), shape.rows};
   }
@@ -44,13 +29,13 @@ RowRange rows_at_ends(const Boundary& boundary, const GridShape& shape) {
 template <int Dim>
 RowRange disturbed_rows(const Scene& scene, const std::vector<Material>& materials,
                         const GridShape& shape, const Particles<Dim>& particles) {
-  if (!can_sleep(scene)) return {0, shape.rows};
+  if (!can_sleep(scene)) return {shape.first, shape.rows};
   Vector<Dim> undisturbed;
   for (int a = 0; a < Dim; ++a) undisturbed[a] = scene.loading.frame[a];
   undisturbed[Dim - 1] -= scene.loading.velocity;
   double sound = std::numeric_limits<double>::infinity();
   for (const Material& m : materials) sound = std::min(sound, longitudinal_sound_speed(m));
-  const double least = least_disturbance * sound;
+  const double least = least_disturbance * sound, bottom = shape.first * shape.cell;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     double change = 0.0;
@@ -58,7 +43,8 @@ RowRange disturbed_rows(const Scene& scene, const std::vector<Material>& materia
     for (int a = 0; a < Dim; ++a) {
       const double x = particles.position[a][p];
       const bool periodic = a + 1 < Dim && side_law(scene.boundary.lateral[a]).wraps;
-      inside = inside && (periodic || (x >= 0.0 && x < scene.domain.size[a]));
+      const double side = a + 1 < Dim ? 0.0 : bottom;
+      inside = inside && (periodic || (x >= side && x < side + scene.domain.size[a]));
       change = std::max(change, std::abs(particles.velocity[a][p] - undisturbed[a]));
     }
     change = inside ? change : 0.0;
@@ -78,7 +64,8 @@ RowRange disturbed_rows(const Scene& scene, const std::vector<Material>& materia
 
 RowRange awake_around(RowRange disturbed, const GridShape& shape) {
   const int reach = 2 * shape.stencil;
-  return {std::max(disturbed.first, reach) - reach, std::min(disturbed.last + reach, shape.rows)};
+  return {std::max(disturbed.first - reach, shape.first),
+          std::min(disturbed.last + reach, shape.rows)};
 }
 
 std::int64_t sleeping_particles(const CellOrder& cells, const SlabGrid& grid) {

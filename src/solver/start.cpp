@@ -37,12 +37,27 @@ Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
           ? conduction_limit(sim.materials, scene.transfer.shape, Dim, scene.domain.cell)
           : std::numeric_limits<double>::infinity();
   sim.phases = make_phase_table();
+  sim.window = open_window(scene);
+  sim.ledger.follows = follows_front(scene);
   return sim;
 }
 
-/// Number of integers that run_state() puts into a checkpoint.
-std::size_t run_state_integers(const Ledger& ledger) {
-  return 5 + save(ledger, MPI_COMM_SELF).size();
+/// Takes the window of a checkpoint, whose integers stand behind the others, and places its voids
+/// or grains again. Throws InputError when the number of integers is not the one of run_state().
+template <int Dim>
+void read_window(const std::string& path, const RunState& state, Simulation<Dim>& sim) {
+  std::size_t expected = 5 + save(sim.ledger, MPI_COMM_SELF).size();
+  if (follows_front(sim.scene) && state.integers.size() >= expected + 4) {
+    sim.window = window_of(
+        {state.integers.begin() + static_cast<std::ptrdiff_t>(expected), state.integers.end()});
+    Particles<Dim> none;
+    fill<Dim>(sim.scene, {0, 0}, MPI_COMM_SELF, none, sim.sample);
+    expected += save(sim.window).size();
+  }
+  if (state.integers.size() == expected) return;
+  throw InputError(path + ": written by another version of this program, its ledger has " +
+                   std::to_string(state.integers.size()) + " numbers instead of " +
+                   std::to_string(expected) + "; restart with that version");
 }
 
 }  // namespace
@@ -51,8 +66,7 @@ template <int Dim>
 Simulation<Dim> start(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim = prepare<Dim>(scene, communicator);
   SampleReport report;
-  fill<Dim>(scene, own_layers(lattice_layers(scene), communicator), communicator, sim.particles,
-            report);
+  fill<Dim>(scene, own_layers(sim.window.next, communicator), communicator, sim.particles, report);
   sim.sample = total(report, communicator);
   find_grains(sim);
   distribute(sim);
@@ -78,13 +92,8 @@ Simulation<Dim> resume(const Scene& scene, const std::string& path, MPI_Comm com
   RunState state;
   const ParticleOptions expected = sim.particles.options;
   read_checkpoint<Dim>(path, communicator, stored_scene, state, sim.particles);
-  require_sound_state(path, scene, expected, state, sim.particles, communicator);
-  if (state.integers.size() != run_state_integers(sim.ledger)) {
-    throw InputError(path + ": written by another version of this program, its ledger has " +
-                     std::to_string(state.integers.size()) + " numbers instead of " +
-                     std::to_string(run_state_integers(sim.ledger)) +
-                     "; restart with that version");
-  }
+  read_window(path, state, sim);
+  require_sound_state(path, sim, expected, state);
   sim.clock.step = state.step;
   sim.work.measured_step = state.step;
   sim.clock.time = state.time;
@@ -123,6 +132,9 @@ RunState run_state(const Simulation<Dim>& sim) {
   }
   const std::vector<std::int64_t> ledger = save(sim.ledger, sim.communicator);
   state.integers.insert(state.integers.end(), ledger.begin(), ledger.end());
+  if (!follows_front(sim.scene)) return state;
+  const std::vector<std::int64_t> window = save(sim.window);
+  state.integers.insert(state.integers.end(), window.begin(), window.end());
   return state;
 }
 

@@ -67,6 +67,20 @@ TEST(History, HeaderAndNumbers) {
             "0.5,0.25,0.125,-0,3,6,5,7,11,-3.5,-11.75,-12.875,1000000000,0,9");
 }
 
+TEST(History, ADomainThatMovesAddsColumns) {
+  EXPECT_EQ(history_header(2, false, true),
+            plane_header +
+                ",handed_over [J/m],taken_in [J/m],handed_over_momentum_x [kg/s],"
+                "handed_over_momentum_y [kg/s],taken_in_momentum_x [kg/s],taken_in_momentum_y "
+                "[kg/s]");
+  HistoryRow row = sample_row(3);
+  const std::string plain = history_line(row, 2);
+  row.follows = true;
+  row.handed_over = 2.0, row.taken_in = 0.5;
+  row.handed_over_momentum = {1.0, 3.0, 0.0}, row.taken_in_momentum = {0.0, -4.0, 0.0};
+  EXPECT_EQ(history_line(row, 2), plain + ",2,0.5,1,3,0,-4");
+}
+
 TEST(History, GrainsAddColumns) {
   EXPECT_EQ(history_header(2, true),
             plane_header +

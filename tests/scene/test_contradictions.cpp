@@ -78,7 +78,7 @@ TEST(Contradictions, Sample) {
   EXPECT_EQ(
       override_problems("sample.height=3e-4"),
       "--set sample.height=3e-4: sample.height: found 0.0003 m, allowed up to the domain height "
-      "of 0.0002 m");
+      "of 0.0002 m, or more with time.follow = \"front\"");
   EXPECT_EQ(override_problems("sample.material=aluminum"),
             "--set sample.material=aluminum: sample.material: found \"aluminum\", allowed "
             "\"aluminium\", did you mean \"aluminium\"?");

@@ -251,7 +251,8 @@ TEST(Messages, Overrides) {
   EXPECT_EQ(override_problems("time.end=soon"),
             "--set time.end=soon: time.end: found \"soon\", allowed a number > 0 (s)");
   EXPECT_EQ(override_problems("time.ends=1e-7"),
-            "--set time.ends=1e-7: time.ends: unknown key, allowed end, cfl, max_steps, sleep, did "
+            "--set time.ends=1e-7: time.ends: unknown key, allowed end, cfl, max_steps, sleep, "
+            "follow, did "
             "you mean \"end\"?");
   EXPECT_EQ(override_problems("time.end"),
             "--set time.end: found no value, allowed table.key=value such as time.end=2e-7");

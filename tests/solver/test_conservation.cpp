@@ -84,9 +84,9 @@ TEST(Conservation, EscapedParticlesTakeTheirEnergyAlong) {
   advance_to(1000000, 0, sim);
   const HistoryRow after = stock(sim);
   EXPECT_LT(after.particles, before.particles);
-  EXPECT_EQ(after.particles + sum(sim.ledger.escaped_particles, MPI_COMM_WORLD), before.particles);
+  EXPECT_EQ(after.particles + sum(sim.ledger.escaped.particles, MPI_COMM_WORLD), before.particles);
   const double each = 2700.0 * 5e-6 * 5e-6;
-  std::vector<Int128> escaped = {sim.ledger.escaped_mass};
+  std::vector<Int128> escaped = {sim.ledger.escaped.mass};
   sum(escaped, MPI_COMM_WORLD);
   EXPECT_NEAR(static_cast<double>(escaped[0]) * mass_quantum(sim.ledger),
               each * static_cast<double>(before.particles - after.particles), 1e-12 * each * 1e4);

@@ -123,6 +123,7 @@ void advance_to(std::int64_t step, std::int64_t rebalance_every, Simulation<Dim>
     const StepAgreement agreement = agree_on_step(false, sim.clock, sim.communicator);
     if (agreement.bad_state)
       throw StateError("state gone bad at " + std::to_string(sim.clock.step));
+    follow_front(sim);
     const double dt = next_time_step(sim.scene, sim.clock);
     advance(sim, dt);
     tick(sim.scene, dt, sim.clock);

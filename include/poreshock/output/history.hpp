@@ -41,10 +41,14 @@ struct HistoryRow {
   std::array<double, 3> escaped_momentum{};  ///< of particles that left
   std::array<double, 3> wall_impulse{};      ///< given to the material by walls and symmetry planes
   std::array<double, 3> body_impulse{};      ///< given by the body force
-  std::array<double, 3> total_momentum{};  ///< momentum + escaped - wall and body impulse: constant
+  /// momentum + escaped + handed over - taken in - wall and body impulse: constant
+  std::array<double, 3> total_momentum{};
   double wall_force = 0.0;  ///< N (N/m), shock axis, of walls and symmetry planes on the material,
                             ///< mean since the row before; 0 in the first row
   std::int64_t guards = 0;  ///< clamps and floors so far
+  bool follows = false;     ///< with the following, of a domain that moves with the front
+  double handed_over = 0.0, taken_in = 0.0;
+  std::array<double, 3> handed_over_momentum{}, taken_in_momentum{};
   std::optional<ContactRow> contact;  ///< only in runs of several grains
 };
 
@@ -55,8 +59,9 @@ double all_heat(const HistoryRow& row);
 /// contact; 0 without heat.
 double numerical_share(const HistoryRow& row);
 
-/// First line of the file, without its end of line. `grains`: with the columns of contact.
-std::string history_header(int dimension, bool grains);
+/// First line of the file, without its end of line. `grains`: with the columns of contact;
+/// `follows`: with those of a domain that moves with the front.
+std::string history_header(int dimension, bool grains, bool follows = false);
 
 /// One line of the file, without its end of line; 17 significant digits.
 std::string history_line(const HistoryRow& row, int dimension);

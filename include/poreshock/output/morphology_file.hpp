@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,17 +43,23 @@ struct MorphologyRecord {
   std::vector<Curve> functionals;        ///< per pixel, and in physical units
   std::size_t spots = 0;                 ///< hot spots listed
   std::vector<SpotColumn> spot_columns;  ///< `spots` rows each; none when none are asked for
+  std::optional<double> low;  ///< m, where the map begins along the shock axis, if that changes
 };
 
-/// File name of a record in its folder: morphology_NNNNNN.h5.
-std::string morphology_name(std::int64_t record);
+/// What of the sample the maps of a file show: the domain at a time, or a strip when it was handed
+/// over.
+enum class MapPart { domain, strip };
+
+/// File name of a record in its folder: morphology_NNNNNN.h5 or strip_NNNNNN.h5.
+std::string morphology_name(std::int64_t record, MapPart part = MapPart::domain);
 
 /// Writes /<field>/{time, step, record, threshold, pixels, counts..., functionals...}, curves as
 /// 1 x thresholds, and hot spots as /<field>/domains/{record, columns...}, one row per spot,
 /// replacing an older file. The stamp's numbers have the side of a pixel (m) as "pixel". Rank 0's
 /// arguments count, and rank 0 works; SystemError on all ranks when it fails. Collective.
 void write_morphology(const std::string& path, const RecordStamp& stamp,
-                      const std::vector<MorphologyRecord>& records, MPI_Comm communicator);
+                      const std::vector<MorphologyRecord>& records, MPI_Comm communicator,
+                      MapPart part = MapPart::domain);
 
 /// Functionals of one field over the records of a run.
 struct MorphologyCurves {
@@ -75,11 +82,13 @@ MorphologyCurves read_morphology(const std::string& path, const std::string& fie
 /// the file is damaged. Rank 0 works. Collective.
 void remove_morphology_from(const std::string& folder, std::int64_t first, MPI_Comm communicator);
 
-/// Merges all morphology_NNNNNN.h5 of a folder, and what an earlier morphology.h5 holds of other
-/// records, into morphology.h5 (curves as times x thresholds, in the order of the records) and
-/// removes the small files once it is safely there. Without small files nothing changes. InputError
-/// on all ranks when a file is damaged or its thresholds or curves differ from the others'; the
-/// small files are kept then. Rank 0 works. Returns the number of records merged. Collective.
-std::int64_t collect_morphology(const std::string& folder, MPI_Comm communicator);
+/// Merges all morphology_NNNNNN.h5 of a folder (strip_NNNNNN.h5 into strips.h5), and what an
+/// earlier morphology.h5 holds of other records, into morphology.h5 (curves as times x thresholds,
+/// in the order of the records) and removes the small files once it is safely there. Without small
+/// files nothing changes. InputError on all ranks when a file is damaged or its thresholds or
+/// curves differ from the others'; the small files are kept then. Rank 0 works. Returns the number
+/// of records merged. Collective.
+std::int64_t collect_morphology(const std::string& folder, MPI_Comm communicator,
+                                MapPart part = MapPart::domain);
 
 }  // namespace poreshock

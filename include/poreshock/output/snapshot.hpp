@@ -40,6 +40,7 @@ struct SnapshotInput {
   Vector<Dim> shift = Vector<Dim>::Zero();  ///< m, added to the positions
   std::vector<std::int32_t> colour = {};    ///< velocity field of each particle; empty: not written
   std::vector<SnapshotMap> maps = {};
+  double bottom = 0.0;  ///< m, height of the domain's low side, without the shift
 };
 
 /// File name of a snapshot in its folder: snapshot_NNNNNN.h5.

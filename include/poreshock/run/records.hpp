@@ -28,8 +28,8 @@ struct Recorder {
   Backlog backlog;                  ///< what the disk did not take
 };
 
-/// The pixel grid of the scene's morphology; none without. Throws InputError when the map has fewer
-/// rows than there are ranks. Collective.
+/// The pixel grid of the scene's morphology; none without. Throws InputError when the map of the
+/// domain, or of a strip of it, has fewer rows than there are ranks. Collective.
 template <int Dim>
 std::unique_ptr<PixelGrid<Dim>> make_pixels(const Simulation<Dim>& sim);
 
@@ -43,6 +43,12 @@ Recorder<Dim> make_recorder(const std::string& folder, bool restarted,
 /// a SystemError on all ranks. Collective.
 template <int Dim>
 void record(bool last, Simulation<Dim>& sim, Recorder<Dim>& recorder);
+
+/// First line of the history of a run.
+template <int Dim>
+std::string history_header(const Simulation<Dim>& sim) {
+  return history_header(Dim, has_contact(sim), follows_front(sim.scene));
+}
 
 /// Writes a checkpoint when one is due by steps, simulated time or wall time; one that the disk
 /// does not take costs a warning. Collective.

@@ -84,8 +84,15 @@ struct LatticeRange {
 /// This rank's share when all ranks together take `layers` layers. Not collective.
 LatticeRange own_layers(std::int64_t layers, MPI_Comm communicator);
 
-/// Number of lattice layers along the shock axis: cells x particles_per_cell.
+/// Number of lattice layers along the shock axis: cells x particles_per_cell, or as many as a
+/// higher sample needs.
 std::int64_t lattice_layers(const Scene& scene);
+
+/// Sites of one layer.
+std::int64_t layer_sites(const Scene& scene);
+
+/// Height of the sites of a layer, m.
+double layer_height(const Scene& scene, std::int64_t layer);
 
 /// Number of those whose sites lie below the height of the sample; 0 without one.
 std::int64_t sample_layers(const Scene& scene);
@@ -104,6 +111,12 @@ std::int64_t sample_layers(const Scene& scene);
 template <int Dim>
 void fill(const Scene& scene, LatticeRange range, MPI_Comm communicator, Particles<Dim>& particles,
           SampleReport& report);
+
+/// The particles of a range of layers again, of a sample that fill() has placed: of one block,
+/// random voids that do not overlap, or packed grains, without bodies. Not collective.
+template <int Dim>
+void fill_layers(const Scene& scene, const SampleReport& placed, LatticeRange range,
+                 Particles<Dim>& particles);
 
 /// The report of the whole sample from the reports of all ranks' ranges. Throws InputError on every
 /// rank when the scene makes no particle at all. Collective.

@@ -31,6 +31,7 @@ enum class Precision { double_precision, single_precision };
 enum class ProbeKind { point, particle, surface, interface };
 enum class Facing { up, down };
 enum class Cadence { step, beat };
+enum class Follow { nothing, front };
 
 /// The block of background cells.
 struct Domain {
@@ -73,7 +74,7 @@ struct MixturePart {
 struct Sample {
   SampleKind kind = SampleKind::none;
   int material = 0;       ///< index into Scene::materials
-  double height = 0.0;    ///< m
+  double height = 0.0;    ///< m; above the domain only where that follows the front
   double porosity = 0.0;  ///< target void fraction (after porosity_definition is applied)
   PorosityDefinition porosity_definition = PorosityDefinition::void_fraction;
   double void_radius = 0.0;  ///< m, median radius
@@ -129,8 +130,9 @@ struct Contact {
 struct TimeControl {
   double end = 0.0;  ///< s
   double cfl = 1.0;
-  std::int64_t max_steps = 0;  ///< 0 = no limit
-  bool sleep = true;           ///< rows that no wave has reached only move
+  std::int64_t max_steps = 0;       ///< 0 = no limit
+  bool sleep = true;                ///< rows that no wave has reached only move
+  Follow follow = Follow::nothing;  ///< front: the domain is a window that moves along
   bool operator==(const TimeControl&) const = default;
 };
 
@@ -219,6 +221,26 @@ inline bool conducts_heat(const Scene& scene) {
   return scene.conduction.on &&
          std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const MaterialParameters& m) { return m.conductivity > 0.0; });
+}
+
+/// True where the state before the first wave is one of uniform motion without stress that nothing
+/// but waves from the ends changes, so that rows may sleep.
+inline bool can_sleep(const Scene& scene) {
+  for (const double a : scene.body_force) {
+    if (a != 0.0) return false;
+  }
+  for (int a = 0; a + 1 < scene.dimension; ++a) {
+    if (side_law(scene.boundary.lateral[a]).mirrors) return false;
+  }
+  for (const MaterialParameters& material : scene.materials) {
+    if (scene.conduction.on && material.T0 != scene.materials.front().T0) return false;
+  }
+  return scene.time.sleep;
+}
+
+/// True when the domain is a window that moves with the front over a longer sample.
+inline bool follows_front(const Scene& scene) {
+  return scene.time.follow == Follow::front;
 }
 
 /// True for samples that are made of grains.

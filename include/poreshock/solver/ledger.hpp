@@ -35,6 +35,14 @@ inline constexpr std::array<GuardCounter, 6> guard_counters = {{
     {"negative heat", &Guards::negative_heat},
 }};
 
+/// What particles take along when they leave, or bring when they come.
+struct Passage {
+  Int128 energy = 0;
+  Int128 mass = 0;  ///< quanta of mass, see mass_quantum
+  std::array<Int128, 3> momentum{};
+  std::int64_t particles = 0;
+};
+
 /// Cumulative sums of this rank since the start; only the sum over all ranks has a meaning.
 struct Ledger {
   double energy_quantum = 1.0;    ///< J
@@ -44,12 +52,12 @@ struct Ledger {
   Int128 transfer_heat = 0;    ///< filter heat
   std::int64_t shortened = 0;  ///< particle-steps whose modes lost a tenth to it
   Int128 conduction = 0;       ///< heat gained by conduction: round-off
-  Int128 escaped_energy = 0;
-  Int128 escaped_mass = 0;  ///< quanta of mass, see mass_quantum
-  std::array<Int128, 3> escaped_momentum{};
-  std::int64_t escaped_particles = 0;
-  Int128 row_wall_impulse = 0;  ///< along the shock axis, when the last history row was written
-  double row_time = 0.0;        ///< s, of the last history row
+  Passage escaped;
+  bool follows = false;            ///< the following are counted
+  Passage handed_over, taken_in;   ///< at the low and at the high side of a domain that moves
+  Int128 handed_plastic_work = 0;  ///< of what was handed over
+  Int128 row_wall_impulse = 0;     ///< along the shock axis, when the last history row was written
+  double row_time = 0.0;           ///< s, of the last history row
   std::optional<double> first_total;  ///< J, total energy of the first history row of the run
   Guards guards;
 };
@@ -80,9 +88,10 @@ double mean_wall_force(const Ledger& ledger, int dimension, double time, MPI_Com
 /// Remembers the wall impulse at `time` for the next mean_wall_force. Not collective.
 void mark_row(int dimension, double time, Ledger& ledger);
 
-/// Books a particle that leaves through an open side. Not collective.
+/// Books a particle that leaves or comes, with the quanta of the ledger. Not collective.
 template <int Dim>
-void book_escape(const Particles<Dim>& particles, std::size_t p, double inertia, Ledger& ledger);
+void book(const Particles<Dim>& particles, std::size_t p, double inertia, const Ledger& ledger,
+          Passage& passage);
 
 /// All sums of the ledger over all ranks as integers, for a checkpoint. Collective.
 std::vector<std::int64_t> save(const Ledger& ledger, MPI_Comm communicator);

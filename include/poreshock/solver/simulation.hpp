@@ -17,6 +17,7 @@
 #include "poreshock/solver/ledger.hpp"
 #include "poreshock/solver/row_cost.hpp"
 #include "poreshock/solver/time_step.hpp"
+#include "poreshock/solver/window.hpp"
 #include "poreshock/transfer/step_data.hpp"
 
 namespace poreshock {
@@ -45,6 +46,7 @@ struct Simulation {
   PhaseTable phases;
   WorkMeter work;
   SampleReport sample;
+  Window window;
 };
 
 /// Settings of the stress update of a step.
@@ -61,6 +63,14 @@ void advance(Simulation<Dim>& sim, double dt);
 template <int Dim>
 Vector<Dim> grid_shift(const Simulation<Dim>& sim) {
   return grid_velocity<Dim>(sim.grid->shape()) * sim.clock.time;
+}
+
+/// Low corner of the domain in the laboratory, m.
+template <int Dim>
+Vector<Dim> low_corner(const Simulation<Dim>& sim) {
+  Vector<Dim> corner = grid_shift(sim);
+  corner[Dim - 1] += sim.window.first * sim.scene.domain.cell;
+  return corner;
 }
 
 }  // namespace poreshock
