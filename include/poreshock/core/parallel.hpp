@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace poreshock {
@@ -47,11 +48,13 @@ MPI_Datatype make_unit(std::size_t bytes);
 template <class Item>
 std::vector<Item> gather_all(const std::vector<Item>& mine, MPI_Comm communicator) {
   const int own = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(size(communicator))), starts(counts.size(), 0);
+  std::vector<int> counts(static_cast<std::size_t>(size(communicator)));
   check_mpi(MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator),
             "MPI_Allgather");
-  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<Item> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  std::vector<int> starts;
+  int items = 0;
+  for (const int count : counts) starts.push_back(std::exchange(items, items + count));
+  std::vector<Item> all(static_cast<std::size_t>(items));
   MPI_Datatype unit = make_unit(sizeof(Item));
   check_mpi(MPI_Allgatherv(mine.data(), own, unit, all.data(), counts.data(), starts.data(), unit,
                            communicator),
