@@ -87,6 +87,21 @@ MaterialParameters tungsten() {
   return m;
 }
 
+MaterialParameters magnesium_az31b() {
+  MaterialParameters m;
+  m.density = 1780.0;  // 1996, as all that has no other source
+  m.young = 43.0e9;    // G0 = 16.5 GPa
+  m.poisson = 0.303;   // that of this G0 and the bulk modulus density x c0^2
+  m.yield = 190.0e6;
+  m.steinberg_guinan = {190.0e6, 1100.0, 0.12, 0.0, 480.0e6, 103.0e-12, 5.09e-4, 300.0};
+  m.c0 = 4520.0;
+  m.lambda = 1.242;
+  m.gamma = 1.54;
+  m.cv = 999.0;
+  m.conductivity = 156.0;  // pure magnesium; unchecked
+  return m;
+}
+
 MaterialParameters pmma() {
   MaterialParameters m;
   m.density = 1186.0;  // Marsh
@@ -144,6 +159,10 @@ const std::vector<LibraryMaterial>& material_library() {
       entry("tungsten", tungsten(), "tungsten",
             "Steinberg 1996. Checked: density, Us-up, gamma, cv and the limit of the flow stress; "
             "not checked: shear modulus, yield and the rest of steinberg_guinan"),
+      entry("magnesium_az31b", magnesium_az31b(), "magnesium alloy AZ31B-H24",
+            "Steinberg 1996 (density, shear modulus, yield, Us-up, gamma, cv, steinberg_guinan). "
+            "Checked against one transcription, whose copper is that of others; conductivity not "
+            "checked"),
       entry("pmma", pmma(), "polymethyl methacrylate",
             "Marsh 1980 (density, Us-up, sound speeds; not checked, but within 1 % of McQueen et "
             "al. in Kinslow, High-Velocity Impact Phenomena, 1970); McQueen et al. 1970 (gamma, "
