@@ -35,7 +35,7 @@ inline Lanes join(const HalfLanes& low, const HalfLanes& high) {
 #else
 
 /// Eight of them where no register is as wide: as one vector they would live in memory only.
-struct Lanes {
+struct [[gnu::may_alias]] Lanes {  // like vectors, it aliases doubles
   HalfLanes low, high;
 
   /// Not set, like a vector of the compiler.
