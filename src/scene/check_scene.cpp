@@ -193,10 +193,10 @@ void check_pixel(const Scene& scene, Report& report) {
   const double pixel = scene.morphology.pixel;
   const double power = std::round(std::log2(pixel / scene.domain.cell));
   const double ratio = pixel / (scene.domain.cell * std::exp2(power));
-  if (std::abs(power) > 3.0 || std::abs(ratio - 1.0) > tolerance) {
+  if (power < -3.0 || power > 4.0 || std::abs(ratio - 1.0) > tolerance) {
     add_problem("morphology.pixel",
                 "found " + plain_number(pixel) + " m, allowed domain.cell = " +
-                    plain_number(scene.domain.cell) + " m times 1/8, 1/4, 1/2, 1, 2, 4 or 8",
+                    plain_number(scene.domain.cell) + " m times 1/8, 1/4, 1/2, 1, 2, 4, 8 or 16",
                 report);
     return;
   }

@@ -149,7 +149,7 @@ void visit_morphology(Visitor& visitor, Scene& scene) {
   visitor.number(
       "pixel", morphology.pixel,
       {positive, "m",
-       "cell times 1/8 ... 8, by default the cell; lagrangian: cell/particles_per_cell"});
+       "cell times 1/8 ... 16, by default the cell; lagrangian: cell/particles_per_cell"});
   const Names<MapVoids> voids{{"black", MapVoids::black},
                               {"white", MapVoids::white},
                               {"fill", MapVoids::fill},

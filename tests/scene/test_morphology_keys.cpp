@@ -82,15 +82,18 @@ TEST(MorphologyKeys, ThresholdRanges) {
 TEST(MorphologyKeys, Pixel) {
   EXPECT_EQ(override_problems("morphology.pixel=3e-5"),
             "--set morphology.pixel=3e-5: morphology.pixel: found 3e-05 m, allowed domain.cell = "
-            "1e-05 m times 1/8, 1/4, 1/2, 1, 2, 4 or 8");
+            "1e-05 m times 1/8, 1/4, 1/2, 1, 2, 4, 8 or 16");
   EXPECT_EQ(
-      override_problems("morphology.pixel=1.6e-4"),
-      "--set morphology.pixel=1.6e-4: morphology.pixel: found 0.00016 m, allowed domain.cell = "
-      "1e-05 m times 1/8, 1/4, 1/2, 1, 2, 4 or 8");
+      override_problems("morphology.pixel=3.2e-4"),
+      "--set morphology.pixel=3.2e-4: morphology.pixel: found 0.00032 m, allowed domain.cell = "
+      "1e-05 m times 1/8, 1/4, 1/2, 1, 2, 4, 8 or 16");
   EXPECT_EQ(
       override_problems("morphology.pixel=4e-5"),
       "--set morphology.pixel=4e-5: morphology.pixel: found 4e-05 m, allowed whole parts of the "
       "domain, 0.0001 m along x");
+  EXPECT_NE(override_problems("morphology.pixel=1.6e-4")
+                .find("allowed whole parts of the domain, 0.0002 m along y"),
+            std::string::npos);
   EXPECT_EQ(override_problems("morphology.pixel=1.25e-6"), "");
   EXPECT_EQ(problems(small_scene("[morphology]\nlattice = \"lagrangian\"\n")), "");
   EXPECT_EQ(problems(small_scene("[morphology]\nlattice = \"lagrangian\"\npixel = 1e-5\n")),

@@ -130,16 +130,24 @@ class Extrapolation(unittest.TestCase):
             top = 11.0 if case.scheme == "polypic" else 10.0
             return (top - case.cell / 5e-6) * (2.0 if case.width == void_reference.NARROW else 1.0)
 
-        found = {case: {"A": value(case)} for case in void_reference.cases(False)}
+        found = {case: {"A": value(case)} for case in void_reference.cases(void_reference.samples_of())}
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "void_reference.csv"
             with self.assertRaisesRegex(ValueError, "void_reference.csv is missing"):
                 void_reference.read(path)
-            void_reference.write_rows(path, found, False)
+            void_reference.write_rows(path, found, void_reference.samples_of())
             middle, error = void_reference.read(path)["A"]
         # Of the wide sample 9.75; the narrow one adds 0.25, as much as the halving before: nothing shrinks.
         self.assertAlmostEqual(middle, 10.0 + 1.0 / 3.0)
         self.assertAlmostEqual(error, 1.0 + 0.25)
+
+    def test_without_the_narrow_sample(self):
+        samples = void_reference.samples_of(narrow=False)
+        found = {case: {"A": 10.0 - case.cell / 5e-6} for case in void_reference.cases(samples)}
+        self.assertEqual(void_reference.sequence(found, 1500.0, "aflip", "A", samples), [9.0, 9.5, 9.75])
+        text = void_reference.markdown(found, samples)
+        self.assertIn("| A | aflip | 9 / 9.5 / 9.75 | +0.5 / +0.25 | 1.00 | 10 |", text)
+        self.assertNotIn("160 um", text)
 
 
 class Readers(unittest.TestCase):

@@ -48,15 +48,16 @@ class Limit:
         return abs(self.last) * max(1.0, 1.0 / (2.0**self.order - 1.0))
 
 
-def cells_of(width, quick):
-    """Cells of a sample, coarse first."""
-    return tuple(round(cell * (QUICK if quick else 1.0), 10) for cell in (WIDE_CELLS if width == WIDE else NARROW_CELLS))
+def samples_of(quick=False, narrow=True):
+    """Cells of the samples by their width, coarse first."""
+    found = {WIDE: WIDE_CELLS} | ({NARROW: NARROW_CELLS} if narrow else {})
+    return {width: tuple(round(cell * (QUICK if quick else 1.0), 10) for cell in cells) for width, cells in found.items()}
 
 
-def cases(quick):
+def cases(samples):
     """All runs, the quick ones first."""
-    found = [Case(velocity, width, scheme, cell) for velocity in ENDS for width in (WIDE, NARROW) for scheme in SCHEMES
-             for cell in cells_of(width, quick)]
+    found = [Case(velocity, width, scheme, cell) for velocity in ENDS for width, cells in samples.items()
+             for scheme in SCHEMES for cell in cells]
     return sorted(found, key=lambda case: case.width / case.cell**3)
 
 
@@ -67,25 +68,30 @@ def run_of(lab, case):
                 f"time.end={ENDS[case.velocity]!r}")
 
 
-def measure(lab, jobs, quick):
+def measure(lab, jobs, samples):
     """Runs all; {case: figures}."""
-    todo = cases(quick)
+    todo = cases(samples)
     with ThreadPoolExecutor(jobs) as pool:
         runs = dict(zip(todo, pool.map(lambda case: run_of(lab, case), todo)))
     strong = max(ENDS)
     thresholds = {strong: collapse.THRESHOLDS}
     for velocity in ENDS.keys() - thresholds.keys():
-        finest = Case(velocity, WIDE, SCHEMES[0], cells_of(WIDE, quick)[-1])
+        finest = Case(velocity, WIDE, SCHEMES[0], samples[WIDE][-1])
         thresholds[velocity] = tuple(round(float(level)) for level in collapse.quantiles_of(runs[finest]))
     return {case: collapse.figures(run, thresholds[case.velocity]) for case, run in runs.items()}
 
 
-def sequence(found, velocity, scheme, name, quick):
-    """The figure over halved cells: of the wide sample, then the differences of the narrow one's finer cells."""
-    wide, narrow = ([found[Case(velocity, width, scheme, cell)].get(name, 0.0) for cell in cells_of(width, quick)]
-                    for width in (WIDE, NARROW))
+def values_of(found, velocity, scheme, name, samples):
+    """Lists of the figure over the cells, a sample each."""
+    return [[found[Case(velocity, width, scheme, cell)].get(name, 0.0) for cell in cells]
+            for width, cells in samples.items()]
+
+
+def sequence(found, velocity, scheme, name, samples):
+    """The figure over halved cells: of the wide sample, then the last difference of the narrow one if there is one."""
+    wide, *others = values_of(found, velocity, scheme, name, samples)
     # The finest cell of the wide sample is the next to last of the narrow one.
-    return [*wide, wide[-1] + narrow[-1] - narrow[-2]]
+    return wide + [wide[-1] + narrow[-1] - narrow[-2] for narrow in others]
 
 
 def limit(values):
@@ -109,12 +115,12 @@ def names_of(found, velocity):
     return list(dict.fromkeys(name for case, figures in found.items() if case.velocity == velocity for name in figures))
 
 
-def limits_of(found, velocity, name, quick):
+def limits_of(found, velocity, name, samples):
     """Limit of each scheme."""
-    return {scheme: limit(sequence(found, velocity, scheme, name, quick)) for scheme in SCHEMES}
+    return {scheme: limit(sequence(found, velocity, scheme, name, samples)) for scheme in SCHEMES}
 
 
-def write_rows(path, found, quick):
+def write_rows(path, found, samples):
     """All values and the references as CSV."""
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
@@ -125,7 +131,7 @@ def write_rows(path, found, quick):
                                  f"{value:.9g}", ""])
         for velocity in ENDS:
             for name in names_of(found, velocity):
-                value, error = reference(limits_of(found, velocity, name, quick).values())
+                value, error = reference(limits_of(found, velocity, name, samples).values())
                 writer.writerow([f"{velocity:g}", f"{WIDE:g}", EXTRAPOLATED, 0, name, f"{value:.9g}", f"{error:.3g}"])
 
 
@@ -147,46 +153,48 @@ def tendency(one):
     return f"{one.order:.2f} | {one.value:.5g}"
 
 
-def scheme_rows(found, velocity, name, quick):
+def scheme_rows(found, velocity, name, samples):
     """Lines of one figure, a scheme each."""
     lines = []
     for scheme in SCHEMES:
         cells = []
-        for width in (WIDE, NARROW):
-            values = [found[Case(velocity, width, scheme, cell)].get(name, 0.0) for cell in cells_of(width, quick)]
+        for values in values_of(found, velocity, scheme, name, samples):
             cells += [" / ".join(f"{value:.5g}" for value in values),
                       " / ".join(f"{step:+.3g}" for step in numpy.diff(values))]
         lines.append(f"| {name} | {scheme} | " + " | ".join(cells)
-                     + f" | {tendency(limit(sequence(found, velocity, scheme, name, quick)))} |")
+                     + f" | {tendency(limit(sequence(found, velocity, scheme, name, samples)))} |")
     return lines
 
 
-def markdown(found, quick):
+def markdown(found, samples):
     """Tables of the references, of the values and of their differences."""
-    wide, narrow = (" / ".join(f"{cell / UM:g}" for cell in cells_of(width, quick)) for width in (WIDE, NARROW))
+    columns = [f"{width / UM:g} um wide, cells of {' / '.join(f'{cell / UM:g}' for cell in cells)} um | per halving"
+               for width, cells in samples.items()]
+    carried = (f"The sample of {NARROW / UM:g} um carries that of {WIDE / UM:g} um to the next finer cell: its last difference is "
+               "added. " if NARROW in samples else "")
     lines = ["# Collapsing voids on ever finer cells", "",
              "Made by `tools/speed_vs_error --reference` from `input/porous_collapse.toml`. Heat is in J per kg of all "
              "material, T of the shocked mass in K, numerical dissipation in percent of all heat. A, L and chi are per "
              "pixel of 10 um.", "",
-             f"The narrow sample, {NARROW / UM:g} um wide, carries the wide one of {WIDE / UM:g} um to the next finer cell: its "
-             "last difference is added. Values are extrapolated with the order of the last two differences; where these "
-             f"do not shrink, or by an order below {SLOWEST:g}, the value is that of the finest cell. The reference is the mean of the schemes. Its error is "
-             "their spread plus the last difference of a scheme, or what the extrapolation adds if that is more.", ""]
+             carried + "Values are extrapolated with the order of the last two differences. Where these do not shrink, or "
+             f"by an order below {SLOWEST:g}, the value is that of the finest cell. The reference is the mean of the "
+             "schemes. Its error is their spread plus the last difference of a scheme, or what the extrapolation adds if "
+             "that is more.", ""]
     for velocity in ENDS:
         names = names_of(found, velocity)
         lines += [f"## {velocity:g} m/s, {1e9 * ENDS[velocity]:g} ns", "", "| figure | reference | +- |", "|---|---|---|"]
         for name in names:
-            value, error = reference(limits_of(found, velocity, name, quick).values())
+            value, error = reference(limits_of(found, velocity, name, samples).values())
             lines.append(f"| {name} | {value:.5g} | {error:.2g} |")
-        lines += ["", f"| figure | scheme | wide, {wide} um | per halving | narrow, {narrow} um | per halving | order | "
-                  "extrapolated |", "|---" * 8 + "|"]
-        lines += [line for name in names for line in scheme_rows(found, velocity, name, quick)] + [""]
+        lines += ["", f"| figure | scheme | {' | '.join(columns)} | order | extrapolated |",
+                  "|---" * (4 + 2 * len(columns)) + "|"]
+        lines += [line for name in names for line in scheme_rows(found, velocity, name, samples)] + [""]
     return "\n".join(lines)
 
 
-def write(lab, jobs, results, quick):
+def write(lab, jobs, results, samples):
     """Runs what is not yet there and writes void_reference.csv and void_reference.md."""
-    found = measure(lab, jobs, quick)
+    found = measure(lab, jobs, samples)
     results.mkdir(parents=True, exist_ok=True)
-    write_rows(results / "void_reference.csv", found, quick)
-    (results / "void_reference.md").write_text(markdown(found, quick))
+    write_rows(results / "void_reference.csv", found, samples)
+    (results / "void_reference.md").write_text(markdown(found, samples))
