@@ -11,7 +11,8 @@ from poreshock_cases.collapse import THRESHOLDS  # noqa: E402
 
 UM = 1e-6
 JUDGED = (*(f"A({threshold} K)" for threshold in THRESHOLDS), "plastic work", "T(50 %)")
-SHOWN = (f"L({THRESHOLDS[1]} K)", f"chi({THRESHOLDS[1]} K)")
+SHOWN = (f"L({THRESHOLDS[1]} K)",)
+CHI = f"chi({THRESHOLDS[1]} K)"  # near zero: shown as it is
 
 
 def relative(result, reference, name):
@@ -81,16 +82,16 @@ def void_table(results, reference):
     front = finished(results)
     front = {id(front[i]) for i in pareto([(r.cost, void_error(r, reference)) for r in front])}
     lines = ["| scheme | cell um | particles | core s | " + " | ".join(f"{name} %" for name in JUDGED + SHOWN)
-             + " | mass > 80 GPa % | numerical dissipation % | guards | energy drift | rms % | front |",
-             "|---" * (10 + len(JUDGED + SHOWN)) + "|"]
+             + f" | {CHI} | mass > 80 GPa % | numerical dissipation % | guards | energy drift | rms % | front |",
+             "|---" * (11 + len(JUDGED + SHOWN)) + "|"]
     for r in ordered(results):
         head = f"| {r.scheme.name} | {r.cell / UM:g} | {r.per_cell} x {r.per_cell} "
         if r.failed:
-            lines.append(head + f"| - | failed: {r.failed[:90]} " + "| " * (5 + len(JUDGED + SHOWN)) + "|")
+            lines.append(head + f"| - | failed: {r.failed[:90]} " + "| " * (6 + len(JUDGED + SHOWN)) + "|")
             continue
         lines.append(head + f"| {r.cost:.2g} | "
                      + " | ".join(f"{relative(r, reference, name):+.1f}" for name in JUDGED + SHOWN)
-                     + f" | {100.0 * r.figures['mass above 80 GPa']:.3f} | "
+                     + f" | {r.figures[CHI]:.4f} | {100.0 * r.figures['mass above 80 GPa']:.3f} | "
                      f"{r.figures['numerical dissipation']:.1f} | {r.figures['guards']} | "
                      f"{r.figures['drift']:.0e} | {void_error(r, reference):.1f} | {'*' if id(r) in front else ''} |")
     return lines
@@ -99,7 +100,7 @@ def void_table(results, reference):
 def reference_lines(reference):
     """Sentences about the reference of the collapse, {figure: (value, error)}."""
     lines = ["Reference: [extrapolated from finer cells](void_reference.md).", "", "| figure | reference | +- |", "|---|---|---|"]
-    return lines + [f"| {name} | {reference[name][0]:.5g} | {reference[name][1]:.2g} |" for name in JUDGED + SHOWN]
+    return lines + [f"| {name} | {reference[name][0]:.5g} | {reference[name][1]:.2g} |" for name in (*JUDGED, *SHOWN, CHI)]
 
 
 def draw(panel, results, error, title):

@@ -173,7 +173,7 @@ def markdown(found, samples):
     carried = (f"The sample of {NARROW / UM:g} um carries that of {WIDE / UM:g} um to the next finer cell: its last difference is "
                "added. " if NARROW in samples else "")
     lines = ["# Collapsing voids on ever finer cells", "",
-             "Made by `tools/speed_vs_error --reference` from `input/porous_collapse.toml`. Heat is in J per kg of all "
+             f"Made by `tools/speed_vs_error --reference{'' if NARROW in samples else ' --no-narrow'}` from `input/porous_collapse.toml`. Heat is in J per kg of all "
              "material, T of the shocked mass in K, numerical dissipation in percent of all heat. A, L and chi are per "
              "pixel of 10 um.", "",
              carried + "Values are extrapolated with the order of the last two differences. Where these do not shrink, or "
