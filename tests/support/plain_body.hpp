@@ -39,6 +39,7 @@ struct PlainBody {
   Material material;
   StressSettings<2> settings;
   double lost = 0.0;      ///< share of the residual of the velocity
+  double rounding = 0.0;  ///< J/kg, heat that may be negative and shortens no mode
   double dt_limit = 0.0;  ///< s, of the last step
 };
 

@@ -86,7 +86,7 @@ inline PlainMoments plain_moments(const PlainWeights& w, PlainBody& body, PlainP
 }
 
 /// New modes and the heat of the transfer; modes are shortened where it would be negative.
-inline void plain_modes(const PlainMoments& m, double lost, PlainParticle& p) {
+inline void plain_modes(const PlainMoments& m, double lost, double rounding, PlainParticle& p) {
   double heat = m.kinetic, energy = 0.0;
   for (int a = 0; a < 2; ++a) {
     for (int k = 0; k < 6; ++k) {
@@ -100,13 +100,13 @@ inline void plain_modes(const PlainMoments& m, double lost, PlainParticle& p) {
       p.mode[a][k] = m.end[a][k] + (k == 0 ? (1.0 - lost) * residual : 0.0);
     }
   }
-  const double missing = std::min(heat, 0.0);
+  const double missing = std::min(heat + rounding, 0.0);
   const double factor =
       std::sqrt(std::max(0.0, 1.0 + 2.0 * missing / (energy > 0.0 ? energy : 1.0)));
   for (int a = 0; a < 2; ++a) {
     for (int k = 1; k < 6; ++k) p.mode[a][k] *= factor;
   }
-  p.heat = std::max(heat, 0.0);
+  p.heat = heat - missing;
 }
 
 /// Shares of the artificial viscosity that act.
@@ -133,7 +133,7 @@ inline void plain_grid_to_particles(double dt, PlainBody& body) {
   for (PlainParticle& p : body.particles) {
     const PlainMoments m = plain_moments(plain_weights(body, p), body, p);
     for (int a = 0; a < 2; ++a) p.x[a] += dt * m.end[a][0];
-    plain_modes(m, body.lost, p);
+    plain_modes(m, body.lost, body.rounding, p);
     plain_limiter(m, p);
   }
 }
