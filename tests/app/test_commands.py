@@ -91,7 +91,7 @@ class Commands(ProgramTest):
         self.assertIn(f"\ntypical time step       {step:.3g} s, about {8 * math.ceil(2.5e-9 / step)} steps\n", text)
         self.assertRegex(text, r"\nmemory                  \d+ MB for particles \(\d+ bytes each\), \d+ MB for nodes\n")
         self.assertRegex(text, r"\ndisk                    \d+ MB for 3 snapshots, \d+ MB a checkpoint\n")
-        self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 4\.0 million particle-steps")
+        self.assertRegex(text, r"\ntime to go              about \d+ s on 2 ranks at 8\.0 million particle-steps")
 
     def test_the_first_scene_warns_of_nothing(self):
         text = self.succeed("check", ROOT / "input/porous_aluminium.toml").output
@@ -111,8 +111,8 @@ class Commands(ProgramTest):
 
     def test_check_warns_of_what_costs_too_much_and_names_the_keys(self):
         self.assertEqual(self.warning(), [])
-        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 7\.\d+ days on 1 ranks\. Start it on more, end "
-                         r"it earlier with time\.end, or set domain\.cell to 1\.9\d+e-05 m for one day\.$")
+        self.assertRegex(*self.warning("time.end=0.1", "output.snapshot=0"), r"^The run takes about 3\.\d+ days on 1 ranks\. Start it on more, end "
+                         r"it earlier with time\.end, or set domain\.cell to 1\.5\d+e-05 m for one day\.$")
         # A thousand million snapshots of half a megabyte.
         self.assertRegex(self.warning("time.end=1e-3", "output.beat=1e-12", "output.snapshot=1e-12")[1],
                          r"^The files of the run need about \S+ GB, 1e\+09 snapshots of \S+ GB among them; this disk has \S+ GB "
