@@ -49,11 +49,11 @@ LatticeRange own_layers_inside(const Simulation<Dim>& sim) {
 StripHeights strip_heights(const Scene& scene) {
   constexpr int least = 16;
   const int most = std::max(scene.domain.cells[scene.dimension - 1] / 8, least);
-  // Pixels are at most 8 cells; half of the least strip holds one.
   const double cells =
       scene.morphology.every > 0.0 ? scene.morphology.pixel / scene.domain.cell : 1.0;
   const int step = std::max(1, static_cast<int>(std::lround(cells)));
-  return {most / 2 / step * step, most / step * step, step};
+  // Never less than a pixel, which is at most the least strip.
+  return {std::max(step, most / 2 / step * step), most / step * step, step};
 }
 
 Window open_window(const Scene& scene) {

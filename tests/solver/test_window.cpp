@@ -44,6 +44,20 @@ Scene whole_scene() {
   return scene_of(window_text + std::string(aluminium_text), {"domain.size=[60e-6, 2.56e-3]"});
 }
 
+TEST(Window, StripsAreWholePixels) {
+  for (const int pixel : {1, 2, 4, 8, 16}) {
+    const StripHeights strip = strip_heights(
+        window_scene({"domain.size=[160e-6, 1.28e-3]", "morphology.every=1e-9",
+                      "morphology.fields=['pressure']", "morphology.thresholds.pressure=[1e9]",
+                      "morphology.pixel=" + std::to_string(pixel) + "e-5"}));
+    EXPECT_EQ(strip.step, pixel);
+    EXPECT_GE(strip.first, pixel);
+    EXPECT_GE(strip.last, strip.first);
+    EXPECT_EQ(strip.first % pixel, 0);
+    EXPECT_EQ(strip.last % pixel, 0);
+  }
+}
+
 /// All that a particle is, by its id.
 template <int Dim>
 std::map<std::int64_t, std::vector<double>> states(const Simulation<Dim>& sim) {
