@@ -249,7 +249,7 @@ void apply_boundaries(const Boundary& boundary, const Vector<Dim>& grid_velocity
     }
   }
   for (int row = grid.first_row(); row < grid.node_end(); ++row) {
-    if (!sides && row > shape.first + 2 && row < shape.rows - 3) continue;
+    if (!sides && is_inner_index(row, shape.first, shape.rows)) continue;
     for_each_place(grid, row, [&](int field, int lateral) {
       std::array<int, Dim> index;
       index[0] = lateral % shape.nodes[0];

@@ -67,11 +67,10 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
 
 /// True where no side of the domain takes space from a node or moves it.
 bool is_inner(const GridShape& shape, const NodePlace& place) {
-  const auto inside = [](int index, int count) { return index > 2 && index < count - 3; };
-  if (!inside(place.row - shape.first, shape.rows - shape.first)) return false;
-  if (shape.dimension == 2) return inside(place.lateral, shape.nodes[0]);
-  return inside(place.lateral % shape.nodes[0], shape.nodes[0]) &&
-         inside(place.lateral / shape.nodes[0], shape.nodes[1]);
+  if (!is_inner_index(place.row, shape.first, shape.rows)) return false;
+  if (shape.dimension == 2) return is_inner_index(place.lateral, 0, shape.nodes[0]);
+  return is_inner_index(place.lateral % shape.nodes[0], 0, shape.nodes[0]) &&
+         is_inner_index(place.lateral / shape.nodes[0], 0, shape.nodes[1]);
 }
 
 /// Shared nodes with one number of fields, which collide together.

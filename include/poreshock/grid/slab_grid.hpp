@@ -43,6 +43,12 @@ GridShape make_grid_shape(const Scene& scene);
 /// The same grid so many rows higher: its planes and the ends of its domain come along.
 GridShape moved_up(GridShape shape, int rows);
 
+/// True for indices along an axis whose nodes are first ... last - 1 that no end of it reaches: one
+/// row beyond its plane mirrors one row inside.
+inline bool is_inner_index(int index, int first, int last) {
+  return index > first + 2 && index < last - 3;
+}
+
 /// Velocity of the nodes, m/s.
 template <int Dim>
 Vector<Dim> grid_velocity(const GridShape& shape) {
