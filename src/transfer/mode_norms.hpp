@@ -29,8 +29,15 @@ inline Lanes square_root(const Lanes& x) {
   return *reinterpret_cast<const Lanes*>(values);
 }
 
-/// Norms of a B-spline of inertia D (squared cells). Of r_a^2 - D the cubic one has the fourth
-/// moment less D^2, 2/9 - f^2 (1 - f)^2 at the place f in the cell.
+/// Norm of r_a^2 - D under the cubic B-spline at the place f in the cell: the fourth moment less
+/// D^2.
+template <class Number>
+inline Number second_norm(const Number& f) {
+  const Number product = f * (1.0 - f);
+  return 2.0 / 9.0 - product * product;
+}
+
+/// Norms of a B-spline of inertia D (squared cells).
 template <int Dim, Modes M>
 inline ModeNorms<Dim, M> mode_norms(double inertia, const std::array<Lanes, Dim>& local) {
   ModeNorms<Dim, M> norm;
@@ -40,8 +47,7 @@ inline ModeNorms<Dim, M> mode_norms(double inertia, const std::array<Lanes, Dim>
   }
   if constexpr (M == Modes::quadratic) {
     for (int a = 0; a < Dim; ++a) {
-      const Lanes product = local[a] * (1.0 - local[a]);
-      const Lanes square = 2.0 / 9.0 - product * product;
+      const Lanes square = second_norm(local[a]);
       norm.value[1 + Dim + a] = square;
       norm.inverse[a] = (1.0 - Lanes{}) / square;
       norm.root[a] = square_root(square);

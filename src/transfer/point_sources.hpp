@@ -35,13 +35,6 @@ struct PointSource {
   std::array<std::array<Number, Dim>, Dim> force;  ///< - V stress per cell: a slope gives N, eq 14
 };
 
-/// 1/sqrt(K) of r_a^2 - D at the place f in a cell, see mode_norms.
-template <class Number>
-inline Number inverse_root_norm(const Number& f) {
-  const Number product = f * (1.0 - f);
-  return (1.0 - Number{}) / square_root(2.0 / 9.0 - product * product);
-}
-
 /// Amplitudes of the second order become coefficients; their constant parts join the velocity.
 /// `local` is the place in the cell, in cells.
 template <int Dim, class Spline, class Number, class Where>
@@ -50,7 +43,9 @@ inline void add_second_modes(const Particles<Dim>& particles, const Where& where
                              PointSource<Dim, Modes::quadratic, Number>& s) {
   constexpr double inertia = 1.0 / Spline::inverse_inertia;
   std::array<Number, Dim> inverse;
-  for (int a = 0; a < Dim; ++a) inverse[a] = inverse_root_norm(local[a]);
+  for (int a = 0; a < Dim; ++a) {
+    inverse[a] = (1.0 - Number{}) / square_root(second_norm(local[a]));
+  }
   for (int a = 0; a < Dim; ++a) {
     Number constant{};
     for (int k = 0; k < second_modes<Dim>; ++k) {
