@@ -67,6 +67,14 @@ void unpack(const std::byte* buffer, std::size_t count, Particles<Dim>& particle
 }
 
 template <int Dim>
+void append(const Particles<Dim>& source, const std::vector<std::uint32_t>& indices,
+            Particles<Dim>& target) {
+  std::vector<std::byte> buffer;
+  pack(source, indices, buffer);
+  unpack(buffer.data(), indices.size(), target);
+}
+
+template <int Dim>
 std::array<double, Dim> mode_squares(const Particles<Dim>& particles, double inertia,
                                      std::size_t p) {
   std::array<double, Dim> squares{};
@@ -106,7 +114,9 @@ template void pack<2>(const Particles<2>&, const std::vector<std::uint32_t>&,
 template void pack<3>(const Particles<3>&, const std::vector<std::uint32_t>&,
                       std::vector<std::byte>&);
 template void unpack<2>(const std::byte*, std::size_t, Particles<2>&);
+template void append<2>(const Particles<2>&, const std::vector<std::uint32_t>&, Particles<2>&);
 template void unpack<3>(const std::byte*, std::size_t, Particles<3>&);
+template void append<3>(const Particles<3>&, const std::vector<std::uint32_t>&, Particles<3>&);
 
 template std::array<double, 2> mode_squares<2>(const Particles<2>&, double, std::size_t);
 template std::array<double, 3> mode_squares<3>(const Particles<3>&, double, std::size_t);

@@ -18,11 +18,9 @@ template <int Dim>
 void write_strip_particles(int rows, Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::snapshot);
   const std::vector<std::uint32_t> places = strip_particles(rows, sim);
-  std::vector<std::byte> buffer;
-  pack(sim.particles, places, buffer);
   Particles<Dim> strip;
   strip.options = sim.particles.options;
-  unpack(buffer.data(), places.size(), strip);
+  append(sim.particles, places, strip);
   SnapshotInput<Dim> input{sim.scene,         sim.scene_text, sim.materials,  strip,
                            sim.window.strips, sim.clock.step, sim.clock.time, grid_shift(sim)};
   const std::vector<std::int32_t> colours = particle_colours(sim);

@@ -166,9 +166,7 @@ void take_in(Simulation<Dim>& sim) {
     }
     std::vector<std::uint32_t> all(made.size());
     std::iota(all.begin(), all.end(), 0U);
-    std::vector<std::byte> buffer;
-    pack(made, all, buffer);
-    unpack(buffer.data(), all.size(), sim.particles);
+    append(made, all, sim.particles);
   }
   const std::ptrdiff_t inside = layers_inside(window, sim.grid->shape());
   window.heights.erase(window.heights.begin(), window.heights.begin() + inside);

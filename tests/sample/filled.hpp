@@ -38,9 +38,7 @@ Filled<Dim> filled(const Scene& scene, int ranges = 1) {
               all.report);
     std::vector<std::uint32_t> every;
     for (std::size_t p = 0; p < part.size(); ++p) every.push_back(static_cast<std::uint32_t>(p));
-    std::vector<std::byte> bytes;
-    pack(part, every, bytes);
-    unpack(bytes.data(), every.size(), all.particles);
+    append(part, every, all.particles);
   }
   return all;
 }

@@ -200,6 +200,12 @@ void pack(const Particles<Dim>& source, const std::vector<std::uint32_t>& indice
 template <int Dim>
 void unpack(const std::byte* buffer, std::size_t count, Particles<Dim>& particles);
 
+/// Appends particles of `source` at `indices` to `target`, which has the same columns. Not
+/// collective.
+template <int Dim>
+void append(const Particles<Dim>& source, const std::vector<std::uint32_t>& indices,
+            Particles<Dim>& target);
+
 /// Squares of what the modes of particle p beyond its velocity add to its kinetic energy, for each
 /// component, m^2/s^2; `inertia` of affine_inertia.
 template <int Dim>
