@@ -17,7 +17,9 @@ import h5py
 import numpy
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE.parent / "app"))
+from program import ALUMINIUM, ROOT  # noqa: E402
+
 EXTENDED = Path(os.environ.get("PORESHOCK_EXTENDED", ROOT / "build/extended"))
 SOURCES = ("CMakeLists.txt", "include", "src", "tests", "tools")
 RECIPES = {"shape_function": "A shape function", "transfer": "A transfer", "boundary": "A boundary",
@@ -39,18 +41,7 @@ velocity = [200, -500]
 [time]
 end = 1e-6
 max_steps = 60
-[[material]]
-name = "aluminium"
-density = 2700
-young = 69e9
-poisson = 0.33
-yield = 120e6
-hardening = 384e6
-c0 = 5350
-lambda = 1.34
-gamma = 2.0
-cv = 880
-"""
+""" + ALUMINIUM
 FLIP = ("transfer.velocity=flip", "viscosity.limited=false")
 
 
