@@ -108,7 +108,7 @@ std::array<double, Dim> symmetric_velocity(const MirrorSet<Dim>& set, const Vect
   }
   std::array<double, Dim> velocity{};
   for (int a = 0; a < Dim; ++a) {
-    velocity[a] = mass > 0.0 && !set.on_plane[a] ? momentum[a] / mass : 0.0;
+    velocity[a] = !(mass <= 0.0) && !set.on_plane[a] ? momentum[a] / mass : 0.0;
   }
   return velocity;
 }
@@ -187,7 +187,7 @@ void project(const std::array<AxisPlace, Dim>& place, const std::array<bool, Dim
   const MirrorSet<Dim> set = mirror_set<Dim>(place, active, index, nodes);
   double mass = 0.0;
   std::array<double, Dim> velocity = symmetric_velocity<Dim>(set, plane, mass);
-  if (!(mass > 0.0)) return;
+  if (mass <= 0.0) return;
   for (int a = Dim - 1; a >= 0; --a) {
     if (!active[a] || place[a].holds) continue;
     if (inward_impulse<Dim>(set, velocity, plane, a) >= 0.0) continue;

@@ -12,7 +12,8 @@ void integrate_momentum(const Vector<Dim>& body_force, double dt, SlabGrid& grid
     Lanes moved{};
     const SumNode<Dim> sum{sums};
     const MotionNode<Dim> motion{moved};
-    if (sum.mass() > 0.0) {
+    // A mass that is no number goes on into the velocities, where the stress update finds it.
+    if (!(sum.mass() <= 0.0)) {
       const double inverse_mass = 1.0 / sum.mass();
       for (int a = 0; a < Dim; ++a) {
         const double start = sum.momentum(a) * inverse_mass;

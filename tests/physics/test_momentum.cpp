@@ -1,5 +1,8 @@
 // Momentum balance at the nodes and the work of a body force.
 
+#include <cmath>
+#include <limits>
+
 #include "physics/node_fields.hpp"
 #include "poreshock/physics/momentum.hpp"
 
@@ -72,6 +75,22 @@ void follows_newton(const std::array<int, Dim>& cells) {
 TEST(Momentum, FollowsNewton) {
   follows_newton<2>({7, 11});
   follows_newton<3>({4, 3, 9});
+}
+
+// A particle without a finite mass must not vanish with its nodes: its neighbours show it to the
+// stress update.
+TEST(Momentum, AMassThatIsNoNumberGoesOn) {
+  const auto grid = summed_grid<2>({6, 8}, MPI_COMM_SELF);
+  const auto poisoned = [](const NodeIndex<2>& index) { return index[0] == 3 && index[1] == 4; };
+  for_each_node<2>(*grid, [&](const NodeIndex<2>& index, Lanes& node) {
+    if (poisoned(index)) node[SumLane<2>::mass] = std::numeric_limits<double>::quiet_NaN();
+  });
+  integrate_momentum<2>(Vector<2>::Zero(), dt, *grid);
+  for_each_node<2>(*grid, [&](const NodeIndex<2>& index, const Lanes& node) {
+    for (int a = 0; a < 2; ++a) {
+      EXPECT_EQ(std::isfinite(node[MotionLane<2>::end_velocity + a]), !poisoned(index));
+    }
+  });
 }
 
 // Nothing may come out of a node without mass, whatever its other sums hold.
