@@ -14,8 +14,8 @@ from poreshock_report import figures  # noqa: E402
 
 try:
     from skimage import measure
-except ImportError as problem:
-    raise unittest.SkipTest(f"scikit-image (python3-skimage) cannot be imported: {problem}") from None
+except ImportError:
+    measure = None
 
 LEVELS = numpy.arange(320.0, 900.0, 20.0)
 
@@ -29,6 +29,7 @@ def pixel_map(path, pixel):
     return numpy.ascontiguousarray(numpy.pad(numpy.nan_to_num(mean, nan=0.0), 2, constant_values=0.0))
 
 
+@unittest.skipIf(measure is None, "scikit-image (python3-skimage) cannot be imported")
 class ScikitImage(program.ProgramTest):
     @classmethod
     def setUpClass(cls):
