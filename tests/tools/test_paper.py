@@ -68,6 +68,9 @@ class Measures(unittest.TestCase):
         fit = measures.straight_line(x, 3.0 - 2.0 * x)
         self.assertAlmostEqual(fit.slope, -2.0)
         self.assertAlmostEqual(fit.quality, 1.0)
+        self.assertAlmostEqual(fit.error, 0.0)
+        # Residuals 0.5, -1, 0.5: sum of squares 1.5 on one degree of freedom, over sum (x - mean)^2 = 2.
+        self.assertAlmostEqual(measures.straight_line(x[:3], numpy.array([0.0, 0.0, 3.0])).error, numpy.sqrt(0.75))
         self.assertIsNone(measures.straight_line(x, numpy.where(x < 2, x, numpy.nan)))
         self.assertEqual(measures.mean_and_deviation([1.0, 3.0]), (2.0, numpy.sqrt(2.0)))
 
@@ -85,7 +88,8 @@ class Claims(unittest.TestCase):
         chi = (0.0, 0.0, -4e-3, 3e-3, 1e-3)
         length = ((0.01, 0.1), (0.05, 0.1), (0.3, -0.1), (0.4, -0.2), (0.2, -0.1))
         found = made_up(PAPER, chi, length)
-        for part in (claims.loading, claims.areas, claims.lengths, claims.connectivity):
+        self.assertEqual(set(self.verdicts(claims.loading(found, found, {"reference": found}))), {claims.AGREES})
+        for part in (claims.areas, claims.lengths, claims.connectivity):
             self.assertEqual(set(self.verdicts(part(found))), {claims.AGREES}, part.__name__)
 
     def test_other_curves_differ_and_say_why(self):
@@ -94,6 +98,16 @@ class Claims(unittest.TestCase):
         for part in (claims.areas, claims.lengths, claims.connectivity):
             self.assertEqual(set(self.verdicts(part(found))), {claims.DIFFERS}, part.__name__)
         self.assertTrue(all(entry.why for entry in claims.connectivity(found)))
+
+    def test_areas_that_differ_show_what_they_hang_on(self):
+        found = made_up(((1.0, 0.05), (1.0, 0.2), (0.82, 0.5), (0.7, 0.2), (0.07, 0.05)))
+        entries = claims.loading(found, found, {"reference": found, "APIC": made_up(PAPER)})
+        self.assertEqual(self.verdicts(entries), [claims.AGREES] * 3 + [claims.DIFFERS, claims.AGREES])
+        self.assertIn("0.310 (APIC) to 0.700 (reference)", entries[3].why)
+
+    def test_what_a_share_of_the_sample_exceeds(self):
+        self.assertEqual(measures.exceeded(made_up(PAPER), 0.31), 200.0)
+        self.assertAlmostEqual(measures.exceeded(made_up(PAPER), 0.19), 225.0)
 
     def test_best_matches_within_their_uncertainty(self):
         nan = numpy.nan
@@ -115,9 +129,9 @@ class Claims(unittest.TestCase):
         fit, last = claims.fit_range(points)
         self.assertAlmostEqual(fit.slope, 0.7, delta=0.05)
         self.assertIn(last, (0.4, 0.46))
-        self.assertEqual(self.verdicts(claims.power_law({300: points}, {300: (fit, last)}, "x")), [claims.AGREES] * 3)
+        self.assertEqual(self.verdicts(claims.power_law({300: points}, {300: (fit, last)}, "x", "why")), [claims.AGREES] * 3)
         self.assertIsNone(claims.fit_range(points[:2]))
-        self.assertEqual(self.verdicts(claims.power_law({300: points}, {300: None}, "x"))[1], claims.DIFFERS)
+        self.assertEqual(self.verdicts(claims.power_law({300: points}, {300: None}, "x", "why"))[1], claims.DIFFERS)
 
 
 class Figures(unittest.TestCase):

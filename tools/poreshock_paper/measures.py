@@ -77,11 +77,11 @@ def mean_and_deviation(values):
 
 @dataclass(frozen=True)
 class Fit:
-    """y = start + slope x by least squares, with the share of the variance that it explains."""
+    """y = start + slope x by least squares, with the share of the variance that it explains and the slope's standard error."""
     slope: float
     start: float
     quality: float
-    count: int
+    error: float
 
 
 def straight_line(x, y):
@@ -91,8 +91,14 @@ def straight_line(x, y):
         return None
     slope, start = numpy.polyfit(x[known], y[known], 1)
     rest = y[known] - start - slope * x[known]
-    spread = y[known] - y[known].mean()
-    return Fit(float(slope), float(start), float(1.0 - (rest @ rest) / (spread @ spread)), int(known.sum()))
+    spread, reach = y[known] - y[known].mean(), x[known] - x[known].mean()
+    error = numpy.sqrt((rest @ rest) / (known.sum() - 2) / (reach @ reach))
+    return Fit(float(slope), float(start), float(1.0 - (rest @ rest) / (spread @ spread)), float(error))
+
+
+def exceeded(found, share):
+    """Rise (K) that this share of the material exceeds at the end of loading."""
+    return float(numpy.interp(-share, -found.arrays["A"][found.end], found.rise))
 
 
 def rank_correlation(values):
