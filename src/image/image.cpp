@@ -35,6 +35,12 @@ void require_image_size(const std::string& path, std::int64_t columns, std::int6
                          " pixels in its header");
 }
 
+std::int64_t colour_value(std::int64_t red, std::int64_t green, std::int64_t blue, bool grey) {
+  if (red == green && green == blue) return red;
+  if (grey) return (299 * red + 587 * green + 114 * blue) / 1000;
+  return (red << 32) + (green << 16) + blue;
+}
+
 Image read_image(const std::string& path, bool grey) {
   constexpr std::string_view png = "\x89PNG\r\n\x1a\n";
   const std::string bytes = read_bytes(path);

@@ -17,6 +17,9 @@ inline constexpr std::int64_t most_image_pixels = std::int64_t{1} << 28;
 /// Throws InputError unless there are pixels, and not too many.
 void require_image_size(const std::string& path, std::int64_t columns, std::int64_t rows);
 
+/// Value of a coloured pixel: its luminance with `grey`, else a label; that of a grey one as it is.
+std::int64_t colour_value(std::int64_t red, std::int64_t green, std::int64_t blue, bool grey);
+
 /// read_image for the bytes of a PNG file.
 Image read_png(const std::string& path, const std::string& bytes, bool grey);
 

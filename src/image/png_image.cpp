@@ -149,19 +149,13 @@ bool is_transparent(const PngRows& rows, const Samples& s) {
   return s[0] == rows.clear.red && s[1] == rows.clear.green && s[2] == rows.clear.blue;
 }
 
-std::int64_t value_of(std::int64_t red, std::int64_t green, std::int64_t blue, bool grey) {
-  if (red == green && green == blue) return red;
-  if (grey) return (299 * red + 587 * green + 114 * blue) / 1000;
-  return (red << 32) + (green << 16) + blue;
-}
-
 double value_at(const PngRows& rows, const Samples& s, bool grey) {
   if (is_transparent(rows, s)) return std::numeric_limits<double>::quiet_NaN();
   if (rows.palette && grey) {
     const png_color& colour = rows.colour[static_cast<std::size_t>(s[0])];
-    return static_cast<double>(value_of(colour.red, colour.green, colour.blue, true));
+    return static_cast<double>(colour_value(colour.red, colour.green, colour.blue, true));
   }
-  return static_cast<double>(rows.channels < 3 ? s[0] : value_of(s[0], s[1], s[2], grey));
+  return static_cast<double>(rows.channels < 3 ? s[0] : colour_value(s[0], s[1], s[2], grey));
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
-// TIFF files as libtiff reads them: one sample per pixel, in strips or tiles, however compressed.
+// TIFF files as libtiff reads them: grey, palette or colour, in strips or tiles, however
+// compressed.
 
 #include <tiffio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -19,8 +21,10 @@ namespace {
 struct Page {
   std::uint32_t columns = 0, rows = 0;
   std::uint16_t bits = 1, samples = 1, format = SAMPLEFORMAT_UINT, meaning = PHOTOMETRIC_MINISBLACK;
+  std::uint16_t planes = PLANARCONFIG_CONTIG;
+  bool grey = false;  ///< colours are wanted as luminances
 
-  std::size_t width() const { return bits / 8U; }
+  bool in_colour() const { return meaning == PHOTOMETRIC_RGB; }
 };
 
 int keep_reason(TIFF*, void* reason, const char*, const char* format, va_list arguments) {
@@ -41,17 +45,23 @@ Page describe(TIFF* handle) {
   TIFFGetFieldDefaulted(handle, TIFFTAG_BITSPERSAMPLE, &page.bits);
   TIFFGetFieldDefaulted(handle, TIFFTAG_SAMPLESPERPIXEL, &page.samples);
   TIFFGetFieldDefaulted(handle, TIFFTAG_SAMPLEFORMAT, &page.format);
+  TIFFGetFieldDefaulted(handle, TIFFTAG_PLANARCONFIG, &page.planes);
   TIFFGetField(handle, TIFFTAG_PHOTOMETRIC, &page.meaning);
   return page;
 }
 
 bool is_allowed(const Page& page) {
+  if (page.in_colour()) {
+    return page.samples == 3 && page.planes == PLANARCONFIG_CONTIG &&
+           page.format == SAMPLEFORMAT_UINT && (page.bits == 8 || page.bits == 16);
+  }
+  const bool mask = page.bits == 1 && page.format == SAMPLEFORMAT_UINT;
   const bool whole = page.format == SAMPLEFORMAT_UINT || page.format == SAMPLEFORMAT_INT;
   const bool number = (whole && (page.bits == 8 || page.bits == 16 || page.bits == 32)) ||
                       (page.format == SAMPLEFORMAT_IEEEFP && page.bits == 32);
   const bool grey = page.meaning == PHOTOMETRIC_MINISBLACK ||
                     page.meaning == PHOTOMETRIC_MINISWHITE || page.meaning == PHOTOMETRIC_PALETTE;
-  return page.samples == 1 && number && grey;
+  return page.samples == 1 && (number || mask) && grey;
 }
 
 template <class T>
@@ -65,6 +75,8 @@ double sample_at(const Page& page, const unsigned char* bytes, std::size_t i) {
   const bool with_sign = page.format == SAMPLEFORMAT_INT;
   if (page.format == SAMPLEFORMAT_IEEEFP) return number_at<float>(bytes, i);
   switch (page.bits) {
+    case 1:  // the first pixel is the highest bit
+      return (bytes[i / 8] >> (7 - i % 8)) & 1;
     case 8:
       return with_sign ? number_at<std::int8_t>(bytes, i) : number_at<std::uint8_t>(bytes, i);
     case 16:
@@ -74,12 +86,21 @@ double sample_at(const Page& page, const unsigned char* bytes, std::size_t i) {
   }
 }
 
+double pixel_at(const Page& page, const unsigned char* bytes, std::size_t i) {
+  if (!page.in_colour()) return sample_at(page, bytes, i);
+  std::array<std::int64_t, 3> colour{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    colour[k] = static_cast<std::int64_t>(sample_at(page, bytes, 3 * i + k));
+  }
+  return static_cast<double>(colour_value(colour[0], colour[1], colour[2], page.grey));
+}
+
 bool read_strips(TIFF* handle, const Page& page, Image& image) {
   std::vector<unsigned char> row(static_cast<std::size_t>(TIFFScanlineSize64(handle)));
   for (std::uint32_t y = 0; y < page.rows; ++y) {
     if (TIFFReadScanline(handle, row.data(), y, 0) < 0) return false;
     for (std::size_t x = 0; x < page.columns; ++x) {
-      image.value[static_cast<std::size_t>(y) * page.columns + x] = sample_at(page, row.data(), x);
+      image.value[static_cast<std::size_t>(y) * page.columns + x] = pixel_at(page, row.data(), x);
     }
   }
   return true;
@@ -92,7 +113,7 @@ bool read_tiles(TIFF* handle, const Page& page, Image& image) {
   const std::uint64_t pixels = std::uint64_t{width} * height;
   if (pixels == 0 || pixels > most_image_pixels) return false;
   std::vector<unsigned char> tile(static_cast<std::size_t>(TIFFTileSize64(handle)));
-  if (tile.size() < pixels * page.width()) return false;
+  if (tile.size() < pixels * page.samples * page.bits / 8) return false;
   for (std::uint32_t top = 0; top < page.rows; top += height) {
     for (std::uint32_t left = 0; left < page.columns; left += width) {
       if (TIFFReadTile(handle, tile.data(), left, top, 0, 0) < 0) return false;
@@ -101,7 +122,7 @@ bool read_tiles(TIFF* handle, const Page& page, Image& image) {
       for (std::size_t y = 0; y < rows; ++y) {
         for (std::size_t x = 0; x < columns; ++x) {
           image.value[(top + y) * page.columns + left + x] =
-              sample_at(page, tile.data(), y * width + x);
+              pixel_at(page, tile.data(), y * width + x);
         }
       }
     }
@@ -123,7 +144,7 @@ void find_luminance(TIFF* handle, const Page& page, Image& image) {
   }
   for (double& value : image.value) {
     const auto i = static_cast<std::size_t>(value);
-    value = (299 * (red[i] >> 8) + 587 * (green[i] >> 8) + 114 * (blue[i] >> 8)) / 1000;
+    value = static_cast<double>(colour_value(red[i] >> 8, green[i] >> 8, blue[i] >> 8, page.grey));
   }
 }
 
@@ -179,16 +200,20 @@ Image TiffFile::read(std::int64_t page, bool grey) {
   if (TIFFCurrentDirectory(handle_) != number && TIFFSetDirectory(handle_, number) == 0) {
     refuse(name + *reason_);
   }
-  const Page found = describe(handle_);
+  Page found = describe(handle_);
+  found.grey = grey;
   require_image_size(path_, found.columns, found.rows);
   if (!is_allowed(found)) {
-    refuse("has " + std::to_string(found.samples) + " samples of " + std::to_string(found.bits) +
-           " bits per pixel in page " + std::to_string(page + 1) +
-           "; allowed in TIFF is one, of 8, 16 or 32 bits, grey or of a palette");
+    refuse(
+        "has " + std::to_string(found.samples) + " samples of " + std::to_string(found.bits) +
+        " bits per pixel in page " + std::to_string(page + 1) +
+        "; allowed in TIFF is one, of 1, 8, 16 or 32 bits, grey or of a palette, or three of 8 or "
+        "16 bits, red, green and blue of each pixel together");
   }
   // No way to compress makes data more than some thousand times smaller: a header alone takes no
   // memory.
-  const double bytes = static_cast<double>(found.columns) * found.rows * found.bits / 8.0;
+  const double bytes =
+      static_cast<double>(found.columns) * found.rows * found.samples * found.bits / 8.0;
   if (bytes > 4096.0 * static_cast<double>(std::filesystem::file_size(path_))) {
     refuse(name + "the file is too short for its size in pixels");
   }

@@ -30,6 +30,7 @@ struct TiffKind {
   std::uint16_t compression = COMPRESSION_NONE;
   std::uint16_t format = SAMPLEFORMAT_UINT;
   std::uint16_t meaning = PHOTOMETRIC_MINISBLACK;
+  int samples = 1;            ///< of a pixel; three are the value, twice and three times it
   int tile = 0;               ///< edge of tiles; 0 = strips
   std::string description{};  ///< empty = none
 };
@@ -38,7 +39,7 @@ inline void set_tiff_fields(TIFF* tiff, int columns, int rows, const TiffKind& k
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, columns);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, rows);
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, kind.bits);
-  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, kind.samples);
   TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, kind.format);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, kind.meaning);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
@@ -68,6 +69,15 @@ inline std::string all_bytes(const std::vector<int>& values, int bits, bool big_
   return bytes;
 }
 
+/// One bit for each number, the first one highest.
+inline std::string bit_bytes(const std::vector<int>& values) {
+  std::string bytes((values.size() + 7) / 8, '\0');
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    bytes[i / 8] = static_cast<char>(bytes[i / 8] | (values[i] & 1) << (7 - i % 8));
+  }
+  return bytes;
+}
+
 /// The bytes of floating-point numbers.
 inline std::string float_bytes(const std::vector<int>& values) {
   std::string bytes;
@@ -91,10 +101,13 @@ inline void write_page(const std::string& name, const char* mode, int columns, i
       for (int y = top; y < top + (kind.tile > 0 ? edge : 1); ++y) {
         for (int x = left; x < left + edge; ++x) {
           const bool inside = x < columns && y < rows;
-          part.push_back(inside ? values[static_cast<std::size_t>(y * columns + x)] : 99);
+          const int value = inside ? values[static_cast<std::size_t>(y * columns + x)] : 99;
+          for (int k = 1; k <= kind.samples; ++k) part.push_back(k * value);
         }
       }
-      std::string bytes = fractions ? float_bytes(part) : all_bytes(part, kind.bits);
+      std::string bytes = fractions        ? float_bytes(part)
+                          : kind.bits == 1 ? bit_bytes(part)
+                                           : all_bytes(part, kind.bits);
       kind.tile > 0 ? TIFFWriteTile(tiff, bytes.data(), static_cast<std::uint32_t>(left),
                                     static_cast<std::uint32_t>(top), 0, 0)
                     : TIFFWriteScanline(tiff, bytes.data(), static_cast<std::uint32_t>(top), 0);

@@ -39,12 +39,15 @@ TEST(Stacks, FoldersOfSlices) {
 }
 
 TEST(Stacks, PagesOfATiffFile) {
-  const std::vector<TiffKind> kinds = {{},
-                                       {.compression = COMPRESSION_ADOBE_DEFLATE},
-                                       {.compression = COMPRESSION_LZW, .tile = 16},
-                                       {.bits = 32},
-                                       {.bits = 16, .format = SAMPLEFORMAT_INT},
-                                       {.bits = 32, .format = SAMPLEFORMAT_IEEEFP}};
+  const std::vector<TiffKind> kinds = {
+      {},
+      {.compression = COMPRESSION_ADOBE_DEFLATE},
+      {.compression = COMPRESSION_LZW, .tile = 16},
+      {.bits = 32},
+      {.bits = 16, .format = SAMPLEFORMAT_INT},
+      {.bits = 32, .format = SAMPLEFORMAT_IEEEFP},
+      {.meaning = PHOTOMETRIC_RGB, .samples = 3},
+      {.bits = 16, .meaning = PHOTOMETRIC_RGB, .samples = 3, .tile = 16}};
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::string file = place("pages" + std::to_string(i) + ".tif");
     once([&] { write_tiff(file, labels, kinds[i]); });
@@ -53,6 +56,41 @@ TEST(Stacks, PagesOfATiffFile) {
   const std::string file = place("big.tiff");
   once([&] { write_tiff(file, wide_labels(), {.bits = 16, .tile = 32}, true); });
   expect_labels(file);
+}
+
+// Rows of a mask begin with a byte of their own; its values are 0 and 1, labels or grey.
+TEST(Stacks, MasksOfOneBit) {
+  Voxels mask{{11, 3, 4}, {}};
+  for (int i = 0; i < 11 * 3 * 4; ++i) mask.value.push_back(i % 3 == 0 || i % 7 == 0 ? 1 : 0);
+  const std::string plain = place("mask8.tif");
+  once([&] { write_tiff(plain, mask); });
+  const std::vector<int> expected = grains_at_sites(stack_scene(plain, mask.size));
+  for (const TiffKind& kind : {TiffKind{.bits = 1},
+                              {.bits = 1, .compression = COMPRESSION_CCITTFAX4},
+                              {.bits = 1, .tile = 16}}) {
+    const std::string file = place("mask.tif");
+    once([&] { write_tiff(file, mask, kind); });
+    Scene scene = stack_scene(file, mask.size);
+    EXPECT_EQ(grains_at_sites(scene), expected);
+    scene.sample.threshold = 0.5;
+    SampleReport report;
+    grains_at_sites(scene, &report);
+    EXPECT_EQ(report.particles, std::count(mask.value.begin(), mask.value.end(), 1));
+  }
+}
+
+// Colours are their luminance where grey values are wanted: (299 + 2 * 587 + 3 * 114)/1000 = 1.815.
+TEST(Stacks, ColouredPagesHaveLuminances) {
+  const std::string file = place("colour.tif");
+  once([&] { write_tiff(file, labels, {.meaning = PHOTOMETRIC_RGB, .samples = 3}); });
+  Scene scene = stack_scene(file, labels.size);
+  scene.sample.threshold = 5.0;
+  SampleReport report;
+  grains_at_sites(scene, &report);
+  std::int64_t solid = 0;
+  for (const int v : labels.value) solid += 1815 * v / 1000 >= 5 ? 1 : 0;
+  EXPECT_GT(solid, 0);
+  EXPECT_EQ(report.particles, solid);
 }
 
 // Where white is the lowest number its negative counts, as the picture looks.
