@@ -146,8 +146,12 @@ std::vector<double> read_plain_rows(const StoredArray& array, std::uint64_t firs
   std::vector<double> values(count * array.row_size());
   const std::uint64_t width = array.number_size();
   std::vector<std::byte> bytes(values.size() * width);
-  const FileDescriptor file(array.file, O_RDONLY);
-  file.read(array.data_begin + first * array.row_size() * width, bytes.data(), bytes.size());
+  const std::uint64_t begin = array.data_begin + first * array.row_size() * width;
+  if (!array.inflated) {
+    FileDescriptor(array.file, O_RDONLY).read(begin, bytes.data(), bytes.size());
+  } else if (array.inflated->read(begin, bytes.data(), bytes.size()) < bytes.size()) {
+    throw InputError(array.file + ": changed while it was read, its numbers end too early");
+  }
   if (array.big_endian) swap_bytes(width, bytes);
   const std::string& n = array.number;
   if (n == "f8") convert<double>(bytes, values);
@@ -200,7 +204,10 @@ void require_numbers(const StoredArray& array, const std::string& row) {
   if (!std::filesystem::is_regular_file(array.file, error)) {
     throw InputError(array.file + ": not found, or not a file");
   }
-  const std::uint64_t found = std::filesystem::file_size(array.file);
+  const std::uint64_t wanted =
+      array.data_begin + array.shape.at(0) * array.row_size() * array.number_size();
+  const std::uint64_t found =
+      array.inflated ? array.inflated->size(wanted + 1) : std::filesystem::file_size(array.file);
   const std::string end = early_end(array, found, row);
   std::string extents;
   for (const std::uint64_t n : array.shape) {
@@ -209,13 +216,16 @@ void require_numbers(const StoredArray& array, const std::string& row) {
   const std::string allowed = "Allowed are the bytes of " + extents + " numbers of " +
                               std::to_string(array.number_size()) + " bytes after byte " +
                               std::to_string(array.data_begin) + ".";
+  const std::string why = array.inflated && !array.inflated->damage().empty()
+                              ? " (" + array.inflated->damage() + ")"
+                              : "";
   const std::string has = array.file + ": has " + std::to_string(found) + " bytes, ";
-  if (!end.empty()) throw InputError(has + end + ". " + allowed);
-  const std::uint64_t wanted =
-      array.data_begin + array.shape.at(0) * array.row_size() * array.number_size();
-  if (found == wanted) return;
-  throw InputError(has + std::to_string(found - wanted) + " more than its numbers need. " +
-                   allowed + " Its size, type or beginning is another one.");
+  if (!end.empty()) throw InputError(has + end + why + ". " + allowed);
+  if (found == wanted && why.empty()) return;
+  if (!why.empty()) throw InputError(has + array.inflated->damage() + ".");
+  const std::string more = array.inflated ? "" : std::to_string(found - wanted) + " ";
+  throw InputError(has + more + "more than its numbers need. " + allowed +
+                   " Its size, type or beginning is another one.");
 }
 
 std::vector<double> read_rows(const StoredArray& array, std::uint64_t first, std::uint64_t count,

@@ -167,10 +167,10 @@ void check_edges(const std::string& key, const std::vector<double>& edges, Heade
   }
 }
 
-/// Where the numbers lie: after the header, or in a file beside it. `skip` = -1 puts them at the
-/// end of their file.
-void find_numbers(const std::string& file, const std::string& skip_key, Header& header,
-                  StoredArray& array) {
+/// Where the numbers lie: after the header, or in a file beside it. A skip of -1 puts them at the
+/// end of their file; bytes of compressed numbers are skipped after they were decompressed.
+void find_numbers(const std::string& file, const std::string& skip_key, bool compressed,
+                  Header& header, StoredArray& array) {
   const bool attached = file.empty() || file == "LOCAL";
   if (file.starts_with("LIST") || file.find('%') != std::string::npos) {
     header.problems.push_back("its numbers lie in several files (" + file +
@@ -180,9 +180,15 @@ void find_numbers(const std::string& file, const std::string& skip_key, Header& 
   array.file = attached ? header.path : (folder / file).string();
   array.data_begin = attached ? header.end : 0;
   const std::vector<double> skip = numbers(header.text(skip_key, "0"));
-  if (skip.size() != 1 || skip[0] < -1.0 || skip[0] > 1e15 || skip[0] != std::floor(skip[0])) {
-    header.refuse(skip_key, "a whole number of bytes, or -1");
+  const double least = compressed ? 0.0 : -1.0;
+  if (skip.size() != 1 || skip[0] < least || skip[0] > 1e15 || skip[0] != std::floor(skip[0])) {
+    header.refuse(skip_key, compressed ? "a whole number of bytes, not -1 as they are compressed"
+                                       : "a whole number of bytes, or -1");
     return;
+  }
+  if (compressed) {
+    array.inflated = std::make_shared<InflatedFile>(array.file, array.data_begin);
+    array.data_begin = 0;
   }
   if (skip[0] > 0.0) array.data_begin += static_cast<std::uint64_t>(skip[0]);
   if (skip[0] < 0.0 && header.problems.empty()) {
@@ -203,7 +209,6 @@ void read_meta_fields(int dimension, Header& header, StoredArray& array) {
     const std::string value = lower(header.text(key, "false"));
     return value == "true" || value == "1";
   };
-  if (is_on("CompressedData")) header.refuse("CompressedData", "False. Write it uncompressed");
   if (lower(header.text("BinaryData", "true")) == "false") header.refuse("BinaryData", "True");
   if (header.text("ElementNumberOfChannels", "1") != "1") {
     header.refuse("ElementNumberOfChannels", "1");
@@ -215,7 +220,8 @@ void read_meta_fields(int dimension, Header& header, StoredArray& array) {
     header.refuse("ElementDataFile", "the name of the file of the numbers, or LOCAL");
     return;
   }
-  find_numbers(header.text("ElementDataFile"), "HeaderSize", header, array);
+  find_numbers(header.text("ElementDataFile"), "HeaderSize", is_on("CompressedData"), header,
+               array);
 }
 
 void read_nrrd_fields(int dimension, Header& header, StoredArray& array) {
@@ -224,7 +230,9 @@ void read_nrrd_fields(int dimension, Header& header, StoredArray& array) {
   }
   find_shape("sizes", dimension, header, array);
   find_type("type", nrrd_types, header, array);
-  if (lower(header.text("encoding")) != "raw") header.refuse("encoding", "raw. Write it so");
+  const std::string encoding = lower(header.text("encoding"));
+  const bool compressed = encoding == "gzip" || encoding == "gz";
+  if (!compressed && encoding != "raw") header.refuse("encoding", "raw or gzip. Write it so");
   array.big_endian = lower(header.text("endian", "little")) == "big";
   if (header.text("line skip", "0") != "0") header.refuse("line skip", "0");
   check_edges("spacings", numbers(header.text("spacings")), header);
@@ -234,7 +242,7 @@ void read_nrrd_fields(int dimension, Header& header, StoredArray& array) {
     edges.push_back(std::hypot(vectors[i], vectors[i + 1], vectors[i + 2]));
   }
   check_edges("space directions", edges, header);
-  find_numbers(header.text("data file"), "byte skip", header, array);
+  find_numbers(header.text("data file"), "byte skip", compressed, header, array);
 }
 
 }  // namespace

@@ -164,6 +164,7 @@ std::vector<std::pair<std::string, std::string>> stacks() {
   return {{".mha", meta_header(voxels, "MET_UCHAR", "HeaderSize = -1\n", "LOCAL") + bytes},
           {".mhd", meta_header(voxels, "MET_UCHAR", "", "stack.fuzz.mhd")},
           {".nrrd", nrrd_header(voxels, "uchar", "byte skip: -1\nendian: little\n") + bytes},
+          {".nrrd", nrrd_header(voxels, "uchar", "", "gzip") + compressed(bytes)},
           {".tif", read_bytes(write_tiff("stack.fuzz.tif", voxels))},
           {".npy", npy_bytes(voxels, "|u1", bytes)}};
 }

@@ -2,6 +2,7 @@
 // Small stacks of voxels for the tests, in every kind of file.
 
 #include <tiffio.h>
+#include <zlib.h>
 
 #include <array>
 #include <cstdint>
@@ -156,9 +157,25 @@ inline std::string meta_header(const Voxels& voxels, const std::string& type,
 }
 
 inline std::string nrrd_header(const Voxels& voxels, const std::string& type,
-                               const std::string& more) {
+                               const std::string& more, const std::string& encoding = "raw") {
   return "NRRD0004\n# a comment\ntype: " + type + "\ndimension: 3\nsizes: " + size_text(voxels) +
-         "\nspace directions: (2,0,0) (0,2,0) (0,0,2)\nencoding: raw\nkey:=value\n" + more + "\n";
+         "\nspace directions: (2,0,0) (0,2,0) (0,0,2)\nencoding: " + encoding + "\nkey:=value\n" +
+         more + "\n";
+}
+
+/// The bytes as gzip writes them, or as a zlib stream.
+inline std::string compressed(std::string bytes, bool gzip = true) {
+  z_stream stream{};
+  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, gzip ? 31 : 15, 8, Z_DEFAULT_STRATEGY);
+  std::string result(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(result.data());
+  stream.avail_out = static_cast<uInt>(result.size());
+  deflate(&stream, Z_FINISH);
+  result.resize(stream.total_out);
+  deflateEnd(&stream);
+  return result;
 }
 
 /// An array as numpy.save writes it, slowest axis first.

@@ -81,8 +81,8 @@ TEST(StackErrors, BadHeadersAreNamed) {
     EXPECT_EQ(text.find("sample.image: " + place("")), 0U) << text;
     MPI_Barrier(world);
   };
-  refused("type.mhd", meta_header(labels, "MET_LONG_DOUBLE", "CompressedData = True\n", "data.raw"),
-          {"ElementType = MET_LONG_DOUBLE, allowed is one of MET_", "CompressedData = True"});
+  refused("type.mhd", meta_header(labels, "MET_LONG_DOUBLE", "BinaryData = False\n", "data.raw"),
+          {"ElementType = MET_LONG_DOUBLE, allowed is one of MET_", "BinaryData = False"});
   refused("flat.mhd", "NDims = 2\nDimSize = 4 3\nElementType = MET_UCHAR\n",
           {"NDims = 2, allowed is 3", "DimSize = 4 3, allowed is 3 whole numbers",
            "no ElementDataFile"});
@@ -92,9 +92,9 @@ TEST(StackErrors, BadHeadersAreNamed) {
           {"it ends in slice 4 of 5", "5 x 3 x 4 numbers of 1 bytes"});
   refused("long.nrrd", nrrd_header(labels, "uchar", "") + bytes + "more",
           {"4 more than its numbers need"});
-  refused("gzip.nrrd", "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 4 3 x\nencoding: gzip\n\n",
-          {"encoding = gzip, allowed is raw", "sizes = 4 3 x"});
-  refused("text.nrrd", "nothing", {"does not begin with NRRD000"});
+  refused("text.nrrd", "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 4 3 x\nencoding: ascii\n\n",
+          {"encoding = ascii, allowed is raw or gzip", "sizes = 4 3 x"});
+  refused("odd.nrrd", "nothing", {"does not begin with NRRD000"});
   refused("lost.nhdr", nrrd_header(labels, "uchar", "data file: nowhere.raw\n"), {"nowhere.raw"});
   refused("cut.npy", npy_bytes(labels, "|u1", bytes.substr(0, 59)), {"it ends in slice 5 of 5"});
   refused("half.npy", npy_bytes(labels, "<f4", std::string(240, '\x3f')),
@@ -102,6 +102,29 @@ TEST(StackErrors, BadHeadersAreNamed) {
   const Voxels other{{4, 3, 4}, std::vector<int>(48, 1)};
   refused("other.npy", npy_bytes(other, "|u1", all_bytes(other.value, 8)),
           {"has 4 slices of sample.pixel = 2e-05 m", "sample.height is 0.0001 m"});
+}
+
+TEST(StackErrors, CompressedNumbersThatAreDamagedAreNamed) {
+  const std::string bytes = all_bytes(labels.value, 8);
+  const auto refused = [&](const std::string& content, const std::vector<std::string>& words) {
+    const std::string file = place("packed.nrrd");
+    once([&] { write_bytes(file, content); });
+    expect_words(refusal(stack_scene(file, labels.size)), words);
+    MPI_Barrier(world);
+  };
+  const std::string header = nrrd_header(labels, "uchar", "", "gzip");
+  const std::string whole = compressed(bytes);
+  refused(header + compressed(bytes.substr(0, 40)), {"it ends in slice 4 of 5", "has 40 bytes"});
+  refused(header + whole.substr(0, whole.size() / 2),
+          {"it ends in slice", "the compressed bytes end too early"});
+  refused(header + bytes,
+          {"it ends in slice 1 of 5", "the compressed bytes are damaged: incorrect header check"});
+  refused(header + compressed(bytes + "more"), {"more than its numbers need"});
+  std::string wrong_sum = whole;
+  wrong_sum[whole.size() - 6] = static_cast<char>(wrong_sum[whole.size() - 6] ^ 1);
+  refused(header + wrong_sum, {"the compressed bytes are damaged: incorrect data check"});
+  refused(nrrd_header(labels, "uchar", "byte skip: -1\n", "gzip") + whole,
+          {"byte skip = -1, allowed is a whole number of bytes, not -1"});
 }
 
 TEST(StackErrors, RawNumbersOfAnotherSizeAreRefused) {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "poreshock/files/array_file.hpp"
 #include "poreshock/files/hdf5_file.hpp"
 #include "stack_scenes.hpp"
 
@@ -66,8 +67,8 @@ TEST(Stacks, MasksOfOneBit) {
   once([&] { write_tiff(plain, mask); });
   const std::vector<int> expected = grains_at_sites(stack_scene(plain, mask.size));
   for (const TiffKind& kind : {TiffKind{.bits = 1},
-                              {.bits = 1, .compression = COMPRESSION_CCITTFAX4},
-                              {.bits = 1, .tile = 16}}) {
+                               {.bits = 1, .compression = COMPRESSION_CCITTFAX4},
+                               {.bits = 1, .tile = 16}}) {
     const std::string file = place("mask.tif");
     once([&] { write_tiff(file, mask, kind); });
     Scene scene = stack_scene(file, mask.size);
@@ -127,6 +128,53 @@ TEST(Stacks, MetaImages) {
                 meta_header(labels, "MET_FLOAT", "", "LOCAL") + float_bytes(labels.value));
   });
   for (const char* name : {"a.mhd", "b.mhd", "c.mhd", "d.mha", "e.mha"}) expect_labels(place(name));
+}
+
+// Headers of both kinds may say that the numbers are compressed, beside them or after them.
+TEST(Stacks, CompressedNumbers) {
+  const std::string bytes = all_bytes(labels.value, 8);
+  const std::string wide = all_bytes(wide_labels().value, 16, true);
+  const std::size_t half = bytes.size() / 2;
+  once([&] {
+    write_bytes(place("z.zraw"), compressed(bytes, false));
+    write_bytes(place("a.mhd"),
+                meta_header(labels, "MET_UCHAR", "CompressedData = True\n", "z.zraw"));
+    write_bytes(place("b.mha"),
+                meta_header(labels, "MET_USHORT",
+                            "CompressedData = True\nBinaryDataByteOrderMSB = True\n", "LOCAL") +
+                    compressed(wide, false));
+    write_bytes(place("c.nrrd"), nrrd_header(labels, "uchar", "", "gzip") + compressed(bytes));
+    write_bytes(place("n.raw.gz"), compressed("head" + bytes));
+    write_bytes(place("d.nhdr"),
+                nrrd_header(labels, "uint8", "data file: n.raw.gz\nbyte skip: 4\n", "gz"));
+    // gzip files written one after the other are one.
+    write_bytes(place("e.nrrd"), nrrd_header(labels, "uchar", "", "gzip") +
+                                     compressed(bytes.substr(0, half)) +
+                                     compressed(bytes.substr(half)));
+  });
+  for (const char* name : {"a.mhd", "b.mha", "c.nrrd", "d.nhdr", "e.nrrd"})
+    expect_labels(place(name));
+}
+
+// More than is worked on at once, read in any order.
+TEST(Stacks, CompressedNumbersOfAnyPlace) {
+  StoredArray array;
+  array.file = place("long.gz");
+  array.shape = {1000, 700};
+  array.number = "u2";
+  array.data_begin = 6;
+  std::string bytes = "before";
+  for (int i = 0; i < 700000; ++i) bytes += number_bytes(i % 65521, 16);
+  once([&] { write_bytes(array.file, "header" + compressed(bytes)); });
+  array.inflated = std::make_shared<InflatedFile>(array.file, 6);
+  require_numbers(array, "row");
+  for (const std::uint64_t first : {300U, 301U, 990U, 0U, 17U}) {
+    const std::vector<double> rows = read_rows(array, first, 10, world);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_EQ(rows[i], static_cast<double>((700 * first + i) % 65521)) << first << " " << i;
+    }
+  }
+  MPI_Barrier(world);
 }
 
 TEST(Stacks, NrrdFiles) {

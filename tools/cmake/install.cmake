@@ -55,5 +55,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy, python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libopenmpi-dev, petsc-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev, libpng-dev, libtiff-dev, paraview")
+    "libopenmpi-dev, petsc-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev, libpng-dev, libtiff-dev, zlib1g-dev, paraview")
 include(CPack)

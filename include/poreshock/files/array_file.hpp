@@ -4,8 +4,11 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "poreshock/files/inflated_file.hpp"
 
 namespace poreshock {
 
@@ -14,11 +17,12 @@ struct StoredArray {
   std::string file;
   std::string dataset;  ///< of an HDF5 file; empty for .npy
   std::vector<std::uint64_t> shape;
-  bool single_precision = false;  ///< numbers of 32 bits with a fraction
-  std::string unit = "1";         ///< of an HDF5 dataset that says so
-  std::string number;             ///< type of a number, for example "f8"; empty for HDF5
-  bool big_endian = false;        ///< its bytes have the highest first
-  std::uint64_t data_begin = 0;   ///< first byte of the numbers
+  bool single_precision = false;           ///< numbers of 32 bits with a fraction
+  std::string unit = "1";                  ///< of an HDF5 dataset that says so
+  std::string number;                      ///< type of a number, for example "f8"; empty for HDF5
+  bool big_endian = false;                 ///< its bytes have the highest first
+  std::uint64_t data_begin = 0;            ///< first byte of the numbers
+  std::shared_ptr<InflatedFile> inflated;  ///< the plain bytes of compressed numbers; else empty
 
   /// As the command line names it.
   std::string name() const { return dataset.empty() ? file : file + ":" + dataset; }
