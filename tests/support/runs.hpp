@@ -47,8 +47,9 @@ void_radius = 30e-6
 velocity = 1100
 [time]
 end = 1e-6
-)") + aluminium_text +
-         more;
+)")
+      .append(aluminium_text)
+      .append(more);
 }
 
 /// Block of 6 x 6 x 14 cells with spherical voids (void fraction 0.08) that hits a wall at 1100
@@ -96,8 +97,9 @@ velocity = 1100
 friction = 0.3
 [time]
 end = 1e-6
-)") + aluminium_text +
-         more;
+)")
+      .append(aluminium_text)
+      .append(more);
 }
 
 inline Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
