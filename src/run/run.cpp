@@ -1,9 +1,9 @@
 #include "poreshock/run/run.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
+#include "energy.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/core/memory.hpp"
 #include "poreshock/core/parallel.hpp"
@@ -33,11 +33,6 @@ namespace {
 constexpr std::int64_t rebalance_interval = 100;
 constexpr double seconds_between_rows = 2.0;
 
-EnergyStatus energy_status(const Ledger& ledger, const HistoryRow& row) {
-  const double first = ledger.first_total.value_or(row.total);
-  return {row.kinetic, row.internal, first != 0.0 ? row.total / first - 1.0 : 0.0};
-}
-
 /// Refuses records that this run could not go on with, before any is cut.
 template <int Dim>
 void require_same_records(const std::string& folder, const Simulation<Dim>& sim) {
@@ -60,26 +55,6 @@ void write_scene_file(const std::string& folder, const Simulation<Dim>& sim) {
     // Of another version, or damaged: replaced.
   }
   write_text(path, sim.scene_text);
-}
-
-/// Where the heat of the run came from, in percent, and how often the transfer shortened modes that
-/// would have made it negative; with a warning where the numerics made too much.
-void show_heat(const HistoryRow& row, const Scene& scene, long long shortened) {
-  constexpr double most = 0.15;
-  const double heat = all_heat(row);
-  if (!(heat > 0.0)) return;
-  const auto percent = [&](double part) { return 100.0 * part / heat; };
-  std::printf(
-      "heat: plastic %.1f %%, viscous %.1f %%, wall and friction %.1f %%; numerical dissipation "
-      "%.1f %% (filter %.1f, contact %.1f); modes shortened %lld times\n",
-      percent(row.plastic_work), percent(row.viscous_heat),
-      percent(row.wall_heat + row.friction_heat), 100.0 * numerical_share(row),
-      percent(row.filter_heat), percent(row.contact_heat), shortened);
-  if (numerical_share(row) <= most) return;
-  std::printf(
-      "warning: numerical dissipation is %.0f %% of all heat; above 15 %% the cells are too coarse "
-      "for the heat of this sample. Set domain.cell to %.3g m or less.\n",
-      100.0 * numerical_share(row), 0.5 * scene.domain.cell);
 }
 
 /// Prints what can hardly be meant; returns it with what `check` says of the sample. Collective.
@@ -239,7 +214,10 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
     stop_asked = step(options, sim, recorder, progress);
     note_probes(sim, recorder.probes);
     const bool last = at_end(limits, sim.clock);
-    if (sim.clock.on_beat || last) record(last, sim, recorder);
+    if (sim.clock.on_beat || last) {
+      record(last, sim, recorder);
+      require_closed_ledger(sim, recorder.last_row);
+    }
     checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);
     show_progress(options.rows, sim, recorder, progress);
   }

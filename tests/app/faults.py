@@ -126,9 +126,9 @@ def environment_of(pid):
     return dict(part.decode(errors="replace").split("=", 1) for part in text.split(b"\0") if b"=" in part)
 
 
-def poison(pid, value):
-    """Stops a rank, overwrites one number in the middle of every row of at least 64 equal ones of this value by NaN,
-    and lets it go on. Returns the number of places."""
+def poison(pid, value, by=float("nan")):
+    """Stops a rank, overwrites one number in the middle of every row of at least 64 equal ones of this value, and lets
+    it go on. Returns the number of places."""
     pattern = struct.pack("<d", value) * 64
     os.kill(pid, signal.SIGSTOP)
     places = 0
@@ -147,7 +147,7 @@ def poison(pid, value):
                 at = content.find(pattern)
                 while at >= 0:
                     memory.seek(low + at + 256)
-                    memory.write(struct.pack("<d", float("nan")))
+                    memory.write(struct.pack("<d", by))
                     places += 1
                     end = at + len(pattern)
                     while content[end:end + 8] == pattern[:8]:

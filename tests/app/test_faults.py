@@ -166,26 +166,38 @@ class OutputFolderGone(FaultTest):
 
 
 class BadRank(FaultTest):
-    def test_not_a_number_in_one_particle(self):
+    def change_a_mass(self, name, factor):
+        """What a run on 3 ranks says when the mass of one particle of rank 2 changes in its memory, and ends with code 3."""
         if not os.access(f"/proc/{os.getpid()}/mem", os.W_OK):
             self.skipTest("the memory of a process cannot be written here")
-        run = self.start("nan", ranks=3)
-        run.wait_for(lambda: self.rows("nan") > 5)
+        run = self.start(name, ranks=3)
+        run.wait_for(lambda: self.rows(name) > 5)
         with h5py.File(self.folder / "whole/snapshot_000000.h5") as file:
             mass = float(file["particles/mass"][0])
-        self.assertGreater(poison(run.rank(2), mass), 0)
+        self.assertGreater(poison(run.rank(2), mass, factor * mass), 0)
         begin = time.monotonic()
         result = run.finish(SECONDS)
         self.assertEqual(result.code, 3, str(result))
         said = re.search(r"^poreshock: (at step .*)$", result.errors, re.M)
         self.assertIsNotNone(said, str(result))
-        self.assertIn("particles have a state that is not finite", said[1])
         self.assertLess(time.monotonic() - begin, SECONDS)
-        self.assertIn("content   intact\n", self.succeed("info", "nan/failed.h5").output)
-        (self.folder / "nan/failed.h5").unlink()
+        self.assertIn("content   intact\n", self.succeed("info", f"{name}/failed.h5").output)
+        (self.folder / name / "failed.h5").unlink()
+        return said[1]
+
+    def test_not_a_number_in_one_particle(self):
+        said = self.change_a_mass("nan", float("nan"))
+        self.assertIn("particles have a state that is not finite", said)
         if any((self.folder / "nan").glob("checkpoint_*")):
             self.assert_continues("nan")
-        tell("NaN", "NaN written into the memory of one of 3 ranks, the mass of one particle", said[1])
+        tell("NaN", "NaN written into the memory of one of 3 ranks, the mass of one particle", said)
+
+    def test_a_wrong_number_in_one_particle(self):
+        """Finite, so that only the balance of energy can tell."""
+        said = self.change_a_mass("heavy", 1.5)
+        self.assertRegex(said, r"the energy is \S+ J/m, it was \S+ J/m at the start")
+        tell("wrong number", "the mass of one particle made 1.5 times as large in the memory of one of 3 ranks", said,
+             "the records since the one before")
 
     def start_short_of_memory(self, name, *arguments):
         """A run on 3 ranks; after `run.take_memory()` rank 1 gets no more memory in large pieces."""
