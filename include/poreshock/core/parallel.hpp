@@ -4,8 +4,8 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace poreshock {
@@ -51,10 +51,9 @@ std::vector<Item> gather_all(const std::vector<Item>& mine, MPI_Comm communicato
   std::vector<int> counts(static_cast<std::size_t>(size(communicator)));
   check_mpi(MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator),
             "MPI_Allgather");
-  std::vector<int> starts;
-  int items = 0;
-  for (const int count : counts) starts.push_back(std::exchange(items, items + count));
-  std::vector<Item> all(static_cast<std::size_t>(items));
+  std::vector<int> starts(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  std::vector<Item> all(static_cast<std::size_t>(starts.back() + counts.back()));
   MPI_Datatype unit = make_unit(sizeof(Item));
   check_mpi(MPI_Allgatherv(mine.data(), own, unit, all.data(), counts.data(), starts.data(), unit,
                            communicator),
