@@ -23,6 +23,13 @@ void take_all_nodes(int fields, NodeLayout& layout) {
   finish_layout(layout);
 }
 
+void take_node_rows(int first, int last, NodeLayout& layout) {
+  reset(1, row_bits, no_tile, layout);
+  std::fill(layout.shift.begin() + (first - layout.first_row),
+            layout.shift.begin() + (last - layout.first_row), 0);
+  finish_layout(layout);
+}
+
 void begin_layout(int fields, NodeLayout& layout) {
   reset(fields, small_bits, no_tile, layout);
 }

@@ -220,6 +220,11 @@ void SlabGrid::take_fields(int fields) {
   if (seam_) seam_->make_fields(fields);
 }
 
+void SlabGrid::take_rows(int first, int last) {
+  first = std::clamp(first, first_, node_end_);
+  take_node_rows(first, std::clamp(last + shape_.stencil - 1, first, node_end_), *layout_);
+}
+
 void SlabGrid::finish_fields() {
   for (int r = first_; r < node_end_; ++r) {
     for (int field = 0; field < fields(); ++field) {

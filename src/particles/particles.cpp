@@ -1,5 +1,6 @@
 #include "poreshock/particles/particles.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <tuple>
 
@@ -20,17 +21,20 @@ void release_spare(Particles<Dim>& particles) {
 }
 
 template <int Dim>
-void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles) {
+void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles,
+             std::size_t first) {
   // One column more per type, which they hand on: a new one each would be new pages each.
   std::tuple<std::vector<std::int64_t>, std::vector<std::int32_t>, std::vector<double>> spare;
   for_each_column(particles, [&](std::string_view, int, auto& column) {
     auto& sorted = std::get<std::remove_reference_t<decltype(column)>>(spare);
     if (sorted.size() != order.size()) {
-      sorted.reserve(column.capacity());
+      if (first == 0) sorted.reserve(column.capacity());
       sorted.resize(order.size());
     }
     for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = column[order[k]];
-    column.swap(sorted);
+    if (first == 0) return column.swap(sorted);
+    column.resize(first + order.size());
+    std::copy(sorted.begin(), sorted.end(), column.begin() + static_cast<std::ptrdiff_t>(first));
   });
 }
 
@@ -103,8 +107,8 @@ double kinetic_energy(const Particles<Dim>& particles, double inertia, std::size
 
 template void resize<2>(Particles<2>&, std::size_t);
 template void resize<3>(Particles<3>&, std::size_t);
-template void reorder<2>(const std::vector<std::uint32_t>&, Particles<2>&);
-template void reorder<3>(const std::vector<std::uint32_t>&, Particles<3>&);
+template void reorder<2>(const std::vector<std::uint32_t>&, Particles<2>&, std::size_t);
+template void reorder<3>(const std::vector<std::uint32_t>&, Particles<3>&, std::size_t);
 template void release_spare<2>(Particles<2>&);
 template void release_spare<3>(Particles<3>&);
 template std::size_t bytes_per_particle<2>(const Particles<2>&);

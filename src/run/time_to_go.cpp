@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "poreshock/solver/sleep.hpp"
-
 namespace poreshock {
 
 namespace {
@@ -30,7 +28,7 @@ double seconds_to_go(const RunSoFar& now, double end, TimeToGo& estimate) {
   estimate.row = now;
   const double all = now.particle_steps - before.particle_steps;
   const double asleep = now.sleeping_steps - before.sleeping_steps;
-  const double work = (all - asleep + sleeping_weight * asleep) / steps;
+  const double work = (all - asleep + estimate.asleep * asleep) / steps;
   const double middle = before.time + 0.5 * advanced;
   if (estimate.first_time < 0.0) {
     estimate.first_work = work;

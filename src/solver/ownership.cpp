@@ -90,7 +90,8 @@ std::vector<double> row_seconds(const Simulation<Dim>& sim) {
     sum(contact_nodes, sim.communicator);
   }
   const RowRange awake = {sim.cells.awake.first - shape.first, sim.cells.awake.last - shape.first};
-  return predicted_row_seconds(particles, contact_nodes, awake, sim.work.unit_seconds);
+  return predicted_row_seconds(particles, contact_nodes, awake, sleeping_weight(!has_contact(sim)),
+                               sim.work.unit_seconds);
 }
 
 /// Gives each rank its slab, grids and particles; starts count from the lowest row. Collective.
@@ -118,6 +119,7 @@ void cut_slabs(std::vector<int> starts, Simulation<Dim>& sim) {
       destination[p] = sim.grid->owner(row_of<Dim>(sim.particles, p, shape, inverse_cell));
     }
     redistribute(destination, sim.particles, sim.communicator);
+    sim.cells.resting.clear();
     release_freed_memory();
   }
   sim.work.lost = 0.0;
@@ -137,17 +139,15 @@ void find_parts(const Particles<Dim>& particles, std::vector<std::int32_t>& part
   }
 }
 
-}  // namespace
-
+/// Sorts the particles that do not rest.
 template <int Dim>
-void sort_particles(std::int64_t step, const SlabGrid& grid, Particles<Dim>& particles,
-                    CellOrder& cells) {
+void sort_all(const SlabGrid& grid, const Particles<Dim>& particles, CellOrder& cells) {
   const GridShape& shape = grid.shape();
   const double inverse_cell = 1.0 / shape.cell;
   const std::size_t count =
       static_cast<std::size_t>(grid.last_row() - grid.first_row()) * shape.row_size;
   cells.cell.resize(particles.size());
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+  for (std::size_t p = resting_particles(cells); p < particles.size(); ++p) {
     int index = row_of<Dim>(particles, p, shape, inverse_cell) - grid.first_row();
     for (int a = Dim - 2; a >= 0; --a) {
       index = index * shape.nodes[a] +
@@ -158,11 +158,27 @@ void sort_particles(std::int64_t step, const SlabGrid& grid, Particles<Dim>& par
   find_parts(particles, cells.part);
   sort_by_cell(cells.cell, count, cells.part.empty() ? particles.grain : cells.part, particles.id,
                cells);
-  if (step % storage_interval == 0) {
-    reorder(cells.order, particles);
-    std::iota(cells.order.begin(), cells.order.end(), 0U);
-    find_parts(particles, cells.part);
+}
+
+}  // namespace
+
+template <int Dim>
+void sort_particles(std::int64_t step, const SlabGrid& grid, Particles<Dim>& particles,
+                    CellOrder& cells) {
+  end_rest(std::max(cells.awake.last, grid.first_row() + 1), grid.shape(), particles, cells);
+  sort_all(grid, particles, cells);
+  if (step % storage_interval != 0) return;
+  if (rest_pays(cells, grid)) {
+    const bool some_rest = !cells.resting.empty();
+    cells.resting.clear();
+    if (some_rest) sort_all(grid, particles, cells);
+    let_rest(grid, particles, cells);
+  } else {
+    const std::uint32_t resting = resting_particles(cells);
+    reorder(cells.order, particles, resting);
+    std::iota(cells.order.begin(), cells.order.end(), resting);
   }
+  find_parts(particles, cells.part);
 }
 
 template <int Dim>
@@ -173,8 +189,10 @@ void migrate(Simulation<Dim>& sim) {
   const double bottom = shape.first * shape.cell;
   const double inertia = affine_inertia(sim.scene.transfer, sim.scene.domain.cell);
   Particles<Dim>& particles = sim.particles;
+  // Those that rest after that are inside and stay here.
+  end_rest(sim.grid->first_row() + 1, shape, particles, sim.cells);
   std::vector<std::uint32_t> down, up, gone;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+  for (std::size_t p = resting_particles(sim.cells); p < particles.size(); ++p) {
     if (!confine<Dim>(sim.scene, bottom, p, particles, sim.ledger.guards.wall_crossing)) {
       book(particles, p, inertia, sim.ledger, sim.ledger.escaped);
       gone.push_back(static_cast<std::uint32_t>(p));

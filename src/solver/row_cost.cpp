@@ -3,18 +3,16 @@
 #include <limits>
 
 #include "poreshock/core/parallel.hpp"
-#include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {
 
-void count_work(std::int64_t particles, std::int64_t asleep, std::int64_t contact_nodes,
+void count_work(std::int64_t particles, double computed, std::int64_t contact_nodes,
                 WorkMeter& work) {
   const auto add = [&](Work kind, double units) {
     work.done[static_cast<std::size_t>(kind)] += units;
   };
-  const auto all = static_cast<double>(particles), still = static_cast<double>(asleep);
-  add(Work::particle, all - still + sleeping_weight * still);
-  add(Work::recorded_particle, all);
+  add(Work::particle, computed);
+  add(Work::recorded_particle, static_cast<double>(particles));
   add(Work::contact_node, static_cast<double>(contact_nodes));
 }
 
@@ -53,7 +51,8 @@ PerWork<double> measured_unit_seconds(const PerWork<double>& done, const PerWork
 
 std::vector<double> predicted_row_seconds(const std::vector<std::int64_t>& particles,
                                           const std::vector<std::int64_t>& contact_nodes,
-                                          RowRange awake, const PerWork<double>& unit_seconds) {
+                                          RowRange awake, double weight,
+                                          const PerWork<double>& unit_seconds) {
   const auto unit = [&](Work kind) { return unit_seconds[static_cast<std::size_t>(kind)]; };
   const double computed = unit(Work::particle) > 0.0 ? unit(Work::particle) : 1.0;
   std::vector<double> weights;
@@ -61,12 +60,12 @@ std::vector<double> predicted_row_seconds(const std::vector<std::int64_t>& parti
   for (int row = 0; row < static_cast<int>(particles.size()); ++row) {
     const auto at = static_cast<std::size_t>(row);
     const bool asleep = row < awake.first || row >= awake.last;
-    const double each = computed * (asleep ? sleeping_weight : 1.0) + unit(Work::recorded_particle);
-    double weight = each * static_cast<double>(particles[at]);
+    const double each = computed * (asleep ? weight : 1.0) + unit(Work::recorded_particle);
+    double seconds = each * static_cast<double>(particles[at]);
     if (!contact_nodes.empty()) {
-      weight += unit(Work::contact_node) * static_cast<double>(contact_nodes[at]);
+      seconds += unit(Work::contact_node) * static_cast<double>(contact_nodes[at]);
     }
-    weights.push_back(weight);
+    weights.push_back(seconds);
   }
   return weights;
 }

@@ -57,6 +57,20 @@ ParticleMotion<Dim> particle_motion(double dt, const Simulation<Dim>& sim) {
           1e-16 * sim.sound_speed * sim.sound_speed};
 }
 
+/// Sorts particles, and gives the grid the nodes that those awake reach, in fields for grains.
+template <int Dim>
+void sort_awake(Simulation<Dim>& sim) {
+  CellOrder& cells = sim.cells;
+  SlabGrid& grid = *sim.grid;
+  cells.awake = awake_around(sim.clock.disturbed, grid.shape());
+  // Colours of grains come from the cells of all.
+  cells.may_rest = !has_contact(sim);
+  timed(sim.phases, PhaseName::sort,
+        [&] { sort_particles(sim.clock.step, grid, sim.particles, cells); });
+  split_by_colour(sim);
+  if (grid.fields() == 1) grid.take_rows(cells.awake.first, cells.awake.last);
+}
+
 template <int Dim>
 void conduct(double dt, Simulation<Dim>& sim) {
   const HeatSettings settings = {sim.scene.thermal, sim.scene.transfer.shape, dt,
@@ -70,11 +84,15 @@ template <int Dim>
 void close_step(double dt, StepReport report, Simulation<Dim>& sim) {
   move_layers(dt, sim);
   const std::int64_t asleep = sleeping_particles(sim.cells, *sim.grid);
-  count_work(std::ssize(sim.particles.id), asleep, std::ssize(sim.grain_fields.shared), sim.work);
+  const double still = sleeping_weight(sim.cells.may_rest) * static_cast<double>(asleep);
+  const std::int64_t all = std::ssize(sim.particles.id);
+  count_work(all, static_cast<double>(all - asleep) + still, std::ssize(sim.grain_fields.shared),
+             sim.work);
   // Those asleep are still in the state that the first limit comes from.
   if (asleep > 0) report.stress.dt_limit = std::min(report.stress.dt_limit, sim.clock.first_limit);
   take_report(report, sim.conduction_limit, sim.clock, sim.ledger);
-  sim.clock.disturbed = disturbed_rows(sim.scene, sim.materials, sim.grid->shape(), sim.particles);
+  sim.clock.disturbed = disturbed_rows(sim.scene, sim.materials, sim.grid->shape(), sim.particles,
+                                       resting_particles(sim.cells));
 }
 
 }  // namespace
@@ -101,9 +119,7 @@ void advance(Simulation<Dim>& sim, double dt) {
   SlabGrid& grid = *sim.grid;
   const auto in = [&](PhaseName name, auto&& run) { timed(sim.phases, name, run); };
 
-  in(PhaseName::sort, [&] { sort_particles(sim.clock.step, grid, particles, sim.cells); });
-  sim.cells.awake = awake_around(sim.clock.disturbed, grid.shape());
-  split_by_colour(sim);
+  sort_awake(sim);
   // Now density, energy and position belong together and the sort holds; the stress update at the
   // end sees the heat in the energy that pressure follows from.
   if (sim.heat) in(PhaseName::conduction, [&] { conduct(dt, sim); });

@@ -165,5 +165,23 @@ TEST(NodeLayout, HoldsTilesInTheOrderOfRowsAndFields) {
   EXPECT_EQ(shift_at(layout, 0, 4, 4), no_tile);
 }
 
+TEST(NodeLayout, HoldsOneFieldInSomeRows) {
+  NodeLayout layout;
+  layout.first_row = 3, layout.rows = 5, layout.row_size = 18;
+  take_node_rows(4, 6, layout);
+  EXPECT_EQ(layout.size, 36U);
+  EXPECT_TRUE(runs_of(layout, 0, 3).empty());
+  ASSERT_EQ(runs_of(layout, 0, 5).size(), 1U);
+  EXPECT_EQ(runs_of(layout, 0, 5)[0].first, 0);
+  EXPECT_EQ(runs_of(layout, 0, 5)[0].last, 18);
+  EXPECT_TRUE(runs_of(layout, 0, 6).empty());
+  EXPECT_EQ(first_place(layout, 4), 0U);
+  EXPECT_EQ(first_place(layout, 5), 18U);
+  EXPECT_EQ(first_place(layout, 8), 36U);
+  EXPECT_EQ(shift_at(layout, 0, 6, 0), no_tile);
+  take_node_rows(8, 8, layout);
+  EXPECT_EQ(layout.size, 0U);
+}
+
 }  // namespace
 }  // namespace poreshock

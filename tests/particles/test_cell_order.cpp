@@ -82,8 +82,21 @@ TEST(CellOrder, DoesNotDependOnStorage) {
   }
 }
 
+TEST(CellOrder, LeavesOutWhatRests) {
+  constexpr std::size_t cells = 20;
+  const Keys keys = random_keys(400, static_cast<int>(cells), 7);
+  CellOrder all, some;
+  some.resting = {30, 150};
+  sort_by_cell(keys.cell, cells, keys.grain, keys.id, all);
+  sort_by_cell(keys.cell, cells, keys.grain, keys.id, some);
+  std::erase_if(all.order, [](std::uint32_t p) { return p < 150; });
+  EXPECT_EQ(some.order, all.order);
+  EXPECT_EQ(some.start.back(), 250U);
+}
+
 TEST(CellOrder, OfNoParticlesIsEmpty) {
-  CellOrder result{.start = {1, 2, 3}, .order = {4, 5}, .cell = {}};
+  CellOrder result;
+  result.start = {1, 2, 3}, result.order = {4, 5};
   sort_by_cell({}, 3, {}, {}, result);
   EXPECT_EQ(result.start, (std::vector<std::uint32_t>{0, 0, 0, 0}));
   EXPECT_TRUE(result.order.empty());

@@ -121,6 +121,16 @@ TEST(Columns, ReorderMovesWholeParticles) {
   EXPECT_EQ(first_wrong_number(particles), "");
 }
 
+TEST(Columns, ReorderKeepsTheFirstInPlace) {
+  Particles<3> particles = numbered_particles<3>(everything, {10, 11, 12, 13, 14});
+  reorder({4, 2, 3}, particles, 2);
+  EXPECT_EQ(particles.id, (std::vector<std::int64_t>{10, 11, 14, 12, 13}));
+  EXPECT_EQ(first_wrong_number(particles), "");
+  reorder({4}, particles, 1);
+  EXPECT_EQ(particles.id, (std::vector<std::int64_t>{10, 13}));
+  EXPECT_EQ(first_wrong_number(particles), "");
+}
+
 template <int Dim>
 void expect_packing_keeps_every_bit(ParticleOptions options, std::size_t bytes) {
   const Particles<Dim> source = numbered_particles<Dim>(options, {7, 3, 900, -2, 8});

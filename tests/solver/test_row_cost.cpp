@@ -5,7 +5,6 @@
 
 #include "poreshock/core/parallel.hpp"
 #include "poreshock/grid/partition.hpp"
-#include "poreshock/solver/sleep.hpp"
 
 namespace poreshock {
 namespace {
@@ -20,14 +19,14 @@ TEST(RowCost, AddsWhatEveryKindOfWorkCosts) {
   unit[contact_node] = 5.0;
   unit[recorded] = 0.25;
   const std::vector<double> seconds =
-      predicted_row_seconds({8, 8, 4, 0}, {0, 3, 0, 0}, {0, 2}, unit);
-  const double asleep = 2.0 * sleeping_weight + 0.25;
+      predicted_row_seconds({8, 8, 4, 0}, {0, 3, 0, 0}, {0, 2}, 0.07, unit);
+  const double asleep = 2.0 * 0.07 + 0.25;
   EXPECT_EQ(seconds, (std::vector<double>{18.0, 33.0, 4.0 * asleep, 0.0}));
 }
 
 TEST(RowCost, CountsParticlesBeforeAnythingIsMeasured) {
-  EXPECT_EQ(predicted_row_seconds({8, 100}, {}, {0, 1}, {}),
-            (std::vector<double>{8.0, 100.0 * sleeping_weight}));
+  EXPECT_EQ(predicted_row_seconds({8, 100}, {}, {0, 1}, 0.07, {}),
+            (std::vector<double>{8.0, 100.0 * 0.07}));
 }
 
 /// Slabs of equal particles, where a third also has contact: the cut moves towards it, to where
@@ -38,7 +37,8 @@ TEST(RowCost, SlabsWithContactBecomeNarrower) {
   unit[contact_node] = 1.0;
   std::vector<std::int64_t> particles(45, 10), contact(45, 0);
   for (std::size_t row = 0; row < 15; ++row) contact[row] = 10;
-  const auto cut = partition_rows(predicted_row_seconds(particles, contact, {0, 45}, unit), 2, {});
+  const auto cut =
+      partition_rows(predicted_row_seconds(particles, contact, {0, 45}, 0.01, unit), 2, {});
   EXPECT_EQ(cut, (std::vector<int>{0, 15, 45}));
 }
 

@@ -39,7 +39,8 @@ struct Comparison {
   double difference, asleep;
 };
 
-std::int64_t asleep(const Simulation<2>& sim) {
+template <int Dim>
+std::int64_t asleep(const Simulation<Dim>& sim) {
   return sleeping_particles(sim.cells, *sim.grid);
 }
 
@@ -81,6 +82,34 @@ TEST(Sleep, WaitsForNothingWhereMotionIsNotUniform) {
     if (std::string(change).starts_with("boundary")) overrides.push_back("domain.periodic=false");
     EXPECT_EQ(asleep_at_start(scene_of(porous_text(), overrides)), 0) << change;
   }
+}
+
+/// Runs with rows that rest and with none that does, to the last bit the same; returns the least
+/// and the largest share of particles that rested.
+template <int Dim>
+std::pair<double, double> compare_rest(const Scene& scene, std::int64_t steps) {
+  Simulation<Dim> a = start<Dim>(scene, MPI_COMM_SELF), b = start<Dim>(scene, MPI_COMM_SELF);
+  double least = 1.0, most = 0.0;
+  while (a.clock.step < steps) {
+    b.cells.resting.clear();
+    for (Simulation<Dim>* sim : {&a, &b}) advance_to(sim->clock.step + 1, 0, *sim);
+    const double share =
+        static_cast<double>(resting_particles(a.cells)) / static_cast<double>(a.particles.size());
+    least = std::min(least, share), most = std::max(most, share);
+    EXPECT_EQ(asleep(a), asleep(b));
+  }
+  EXPECT_EQ(difference(a, b), 0.0);
+  return {least, most};
+}
+
+TEST(Sleep, OfRowsThatRestChangesNoBit) {
+  const auto plane = compare_rest<2>(
+      scene_of(porous_text(), {"sample.height=1.2e-3", "domain.size=[0.1e-3, 1.3e-3]"}), 700);
+  EXPECT_GT(plane.second, 0.8);
+  EXPECT_LT(plane.first, 0.5);
+  const auto space = compare_rest<3>(
+      scene_of(balls_text(), {"sample.height=300e-6", "domain.size=[60e-6, 60e-6, 320e-6]"}), 60);
+  EXPECT_GT(space.second, 0.3);
 }
 
 TEST(Sleep, MovesABlockInFreeFlightExactly) {

@@ -1,7 +1,7 @@
 #pragma once
 // Which nodes of a slab each of several velocity fields has, and where they are stored: row after
-// row, in a row field after field. With one field that is every node. With several, a field has
-// tiles of four nodes where its particles are.
+// row, in a row field after field. With one field that is every node of the rows in use. With
+// several, a field has tiles of four nodes where its particles are.
 
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +39,9 @@ inline constexpr std::int32_t no_tile = std::numeric_limits<std::int32_t>::min()
 
 /// Gives every field all nodes.
 void take_all_nodes(int fields, NodeLayout& layout);
+
+/// Gives one field all nodes of the rows first ... last - 1.
+void take_node_rows(int first, int last, NodeLayout& layout);
 
 /// Begins a layout without nodes; mark_nodes adds them, finish_layout places them.
 void begin_layout(int fields, NodeLayout& layout);

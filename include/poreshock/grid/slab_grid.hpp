@@ -92,6 +92,10 @@ class SlabGrid {
   /// Gives every field all nodes. Afterwards the grid awaits clear(). Collective.
   void take_fields(int fields);
 
+  /// Gives one field the node rows that particles of a range of rows add to, of all ranks.
+  /// Afterwards the grid awaits clear(). Not collective.
+  void take_rows(int first, int last);
+
   /// Gives the fields the nodes that mark(layout) marks, the same on all ranks that hold them, and
   /// those that they stand for across periodic sides. Afterwards the grid awaits clear().
   /// Collective.

@@ -181,10 +181,11 @@ void resize(Particles<Dim>& particles, std::size_t count);
 template <int Dim>
 void release_spare(Particles<Dim>& particles);
 
-/// Reorders all columns: new particle k is the old particle order[k]. A shorter order drops the
-/// rest.
+/// Reorders all columns: new particle first + k is the old particle order[k]. A shorter order drops
+/// the rest.
 template <int Dim>
-void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles);
+void reorder(const std::vector<std::uint32_t>& order, Particles<Dim>& particles,
+             std::size_t first = 0);
 
 /// Bytes one particle takes in all columns in use.
 template <int Dim>

@@ -30,9 +30,9 @@ struct WorkMeter {
   std::int64_t cuts = 0;           ///< times the slabs were cut anew while running
 };
 
-/// Adds what this rank did in a step, in which of its particles some were asleep and grains met at
-/// some nodes.
-void count_work(std::int64_t particles, std::int64_t asleep, std::int64_t contact_nodes,
+/// Adds what this rank did in a step: its particles, those computed with those asleep by their
+/// weight, and the nodes where grains met.
+void count_work(std::int64_t particles, double computed, std::int64_t contact_nodes,
                 WorkMeter& work);
 
 /// Seconds this rank has spent in the phases of each kind of work.
@@ -48,9 +48,11 @@ PerWork<double> measured_unit_seconds(const PerWork<double>& done, const PerWork
 /// measurement in units of a particle.
 /// @param particles,contact_nodes entries per row; contact_nodes may be empty
 /// @param awake the rows that are computed
+/// @param weight of a particle in the others
 std::vector<double> predicted_row_seconds(const std::vector<std::int64_t>& particles,
                                           const std::vector<std::int64_t>& contact_nodes,
-                                          RowRange awake, const PerWork<double>& unit_seconds);
+                                          RowRange awake, double weight,
+                                          const PerWork<double>& unit_seconds);
 
 /// Books what the present cut loses in `steps` steps to the best one; true when all that is lost
 /// since the last cut exceeds what a cut costs, so that never more than twice the least is spent
