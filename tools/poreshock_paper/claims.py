@@ -197,8 +197,8 @@ def heat_by_porosity(rows):
 def loaded_by_porosity(rows):
     """The same at common times."""
     first, last = rows[0], rows[-1]
-    return (f"When the sample with {first[0]:g} is loaded through ({1e9 * first[1]:.0f} ns), one with {last[0]:g} is to "
-            f"{100 * first[1] / last[1]:.0f} %. Only a low threshold makes up for material that no shock has met.")
+    return (f"When the shock has crossed the sample with {first[0]:g} ({1e9 * first[1]:.0f} ns), it has crossed "
+            f"{100 * first[1] / last[1]:.0f} % of one with {last[0]:g}. Only a low threshold makes up for material that no shock has met.")
 
 
 def fit_range(points, tolerance=0.1):
