@@ -83,7 +83,7 @@ MaterialPhase particle_phase(const Particles<Dim>& p, const std::vector<Material
                            p.options.conducted_heat ? p.conducted_heat[i] : 0.0,
                            square<Dim>(p.deviator, i),
                            p.options.back_stress ? square<Dim>(p.back_stress, i) : 0.0,
-                           p.options.failed && p.failed[i] != 0};
+                           p.options.failed && p.failed[i] > 0};
   return material_phase(materials[static_cast<std::size_t>(p.material[i])], thermal, state);
 }
 

@@ -1,6 +1,7 @@
 #include "poreshock/material/material.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace poreshock {
 
@@ -36,7 +37,10 @@ Material make_material(const MaterialParameters& p) {
   }
   m.plastic_heat = p.plastic_heat;
   m.conductivity = p.conductivity;
-  if (p.spall > 0.0) m.spall = p.spall;
+  if (p.spall > 0.0) {
+    m.spall = p.spall;
+    m.opened_tension = p.spall + 0.1 * m.eos.bulk;  // a tenth of the volume has opened
+  }
   return m;
 }
 
@@ -57,8 +61,10 @@ MaterialPhase material_phase(const Material& m, Thermal thermal, const ThermalSt
                                   m.deviatoric_energy(state.deviator_square, state.density) -
                                   m.back_stress_energy(state.back_stress_square, state.density);
   double eta = 1.0 - m.eos.density / state.density;
-  if (state.failed) {
-    eta = std::max(eta, unloaded_eta(m.eos, paper ? 1.0 : 1.0 + 0.5 * m.eos.gamma, heat));
+  if (std::isfinite(m.spall)) {
+    const double tension = state.failed ? 0.0 : m.spall;
+    const double c = paper ? 1.0 : 1.0 + 0.5 * m.eos.gamma;
+    eta = std::max(eta, eta_in_tension(m.eos, c, heat, tension));
   }
   const double reference = reference_temperature(m.temperature, eta);
   if (paper) return {reference + (heat + state.conducted_heat) / m.eos.cv, 0.0};

@@ -20,7 +20,7 @@ template <int Dim>
     }
     SymmetricTensor<Dim> s;
     for (int j = 0; j < symmetric_size<Dim>; ++j) s[j] = c.particle.deviator[j][k];
-    const bool failed = can_fail && c.particle.failed[k] != 0;
+    const bool failed = can_fail && c.particle.failed[k] > 0;
     const auto t = trial_stress<Dim>(deformation_increment(F), s, failed ? 0.0 : shear);
     equivalent[k] = std::sqrt(1.5) * std::sqrt(contract<Dim>(t.trial, t.trial));
   }

@@ -154,14 +154,29 @@ inline TrialStress<Dim> trial_stress(const DeformationIncrement<Dim>& increment,
   return t;
 }
 
-/// A failed particle bears neither tension nor shear. The elastic energy it held is heat from now
-/// on, since it stays in the internal energy. Where it has opened its solid is at rest volume.
+/// The new entry of a column `failed`: 1 where a particle fails, else how long it has opened at its
+/// strength, as -1000 times the cells that sound crosses in that time. It fails when a tenth of its
+/// volume has opened, or sound has crossed 32 cells: a front spans some cells, and what failed at
+/// once would take back the tension before its peak has passed.
+inline std::int32_t held_tension(const Material& m, double cell, double dt, double pressure,
+                                 std::int32_t before) {
+  constexpr std::int32_t longest = -32000;
+  const double crossed = 1000.0 * dt * std::sqrt(m.eos.bulk / m.eos.density) * (1.0 / cell);
+  const std::int32_t held = pressure < -m.spall ? before - static_cast<std::int32_t>(crossed) : 0;
+  const bool fails = before > 0 || held <= longest || pressure < -m.opened_tension;
+  return fails ? 1 : held;
+}
+
+/// A particle opens at its spall strength and bears no more tension. A failed one bears neither
+/// tension nor shear. The elastic energy it held is heat from now on, since it stays in the
+/// internal energy. The solid of what has opened is near its volume at rest.
 template <int Dim>
-inline void release(const MieGruneisen& law, bool fails, ReturnMapping<Dim>& mapped,
+inline void release(const Material& m, bool fails, ReturnMapping<Dim>& mapped,
                     EquationOfState& eos) {
-  const bool open = fails && eos.pressure < 0.0;
-  eos.pressure = open ? 0.0 : eos.pressure;
-  eos.sound_speed2 = open ? law.bulk / law.density : eos.sound_speed2;
+  const double least = fails ? 0.0 : -m.spall;
+  const bool open = eos.pressure < least;
+  eos.pressure = open ? least : eos.pressure;
+  eos.sound_speed2 = open ? m.eos.bulk / m.eos.density : eos.sound_speed2;
   for (int k = 0; k < symmetric_size<Dim>; ++k) {
     mapped.deviator[k] = fails ? 0.0 : mapped.deviator[k];
     mapped.back_stress[k] = fails ? 0.0 : mapped.back_stress[k];
@@ -193,7 +208,7 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
   const auto increment = deformation_increment(motion.F);
   const double ratio = increment.volume_ratio;
   const double density = p.density[i] / ratio;
-  const bool failed_before = Spall && p.failed[i] != 0;
+  const bool failed_before = Spall && p.failed[i] > 0;
   const auto [start, trial] =
       trial_stress<Dim>(increment, s, failed_before ? 0.0 : m.strength.shear);
   if constexpr (kinematic) alpha = rotate(increment.rotation, alpha);
@@ -215,10 +230,11 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
   EquationOfState eos = Conserving ? conserving_state(m.eos, density, energy - stored)
                                    : paper_state(m.eos, density, plastic_work);
   if constexpr (Spall) {
-    const bool fails = failed_before || eos.pressure < -m.spall;
+    const std::int32_t held = held_tension(m, settings.cell, dt, eos.pressure, p.failed[i]);
+    const bool fails = held > 0;
     if constexpr (Conserving) eos.pressure += fails ? m.eos.gamma * density * stored : 0.0;
-    release<Dim>(m.eos, fails, mapped, eos);
-    p.failed[i] = fails ? 1 : 0;
+    release<Dim>(m, fails, mapped, eos);
+    p.failed[i] = held;
   }
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double c2 = eos.sound_speed2 > floor2 ? eos.sound_speed2 : floor2;

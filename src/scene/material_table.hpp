@@ -111,7 +111,7 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
   visitor.number("conductivity", material.conductivity,
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
   visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
-  visitor.number("spall", material.spall, {not_negative, "Pa", "tension it fails at; 0 = never"});
+  visitor.number("spall", material.spall, {not_negative, "Pa", "tension it opens at; 0 = never"});
   visit_melting(visitor, material, known);
 }
 

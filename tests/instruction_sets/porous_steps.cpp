@@ -135,7 +135,7 @@ bool run(const Case& c, const std::array<int, Dim>& cells, reference::Random& ra
   }
   // The wall was hit, the solid yielded, and some of it failed where it can.
   int yielded = 0, failed = 0;
-  for (const std::int32_t f : s.particles.failed) failed += f;
+  for (const std::int32_t f : s.particles.failed) failed += f != 0 ? 1 : 0;
   for (const double strain : s.particles.plastic_strain) yielded += strain > 0.01;
   const bool good = s.ledger.wall_heat > 0 && 4 * yielded > static_cast<int>(s.particles.size()) &&
                     (!c.conduction_and_spall || failed >= 5);

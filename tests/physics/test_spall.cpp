@@ -11,7 +11,7 @@ constexpr double dt = 1e-9;
 /// Stretches all axes alike by `dilatation` (1/s) for some steps, without viscosity.
 template <int Dim>
 void stretch(const std::vector<Material>& materials, Thermal thermal, double dilatation, int steps,
-             Points<Dim>& points) {
+             Points<Dim>& points, double cell = 10e-6) {
   std::array<double, Dim * Dim> gradient{};
   for (int a = 0; a < Dim; ++a) gradient[a * (Dim + 1)] = dilatation / Dim;
   for (std::size_t p = 0; p < points.particles.size(); ++p) {
@@ -19,12 +19,20 @@ void stretch(const std::vector<Material>& materials, Thermal thermal, double dil
   }
   StressSettings<Dim> settings = settings_of<Dim>(thermal);
   settings.viscosity = {0.0, 0.0};
+  settings.cell = cell;
   for (int n = 0; n < steps; ++n) update<Dim>(materials, settings, dt, points);
 }
 
 MaterialParameters spalling(double strength) {
   MaterialParameters m = reference::aluminium();
   m.spall = strength;
+  return m;
+}
+
+/// One that fails as soon as it opens.
+Material brittle(const MaterialParameters& parameters) {
+  Material m = make_material(parameters);
+  m.opened_tension = m.spall;
   return m;
 }
 
@@ -60,7 +68,7 @@ TEST(Tension, IsLinearInTheVolume) {
 
 template <int Dim>
 void fails_once_and_for_good(Thermal thermal) {
-  const std::vector<Material> materials = {make_material(spalling(1e9))};
+  const std::vector<Material> materials = {brittle(spalling(1e9))};
   Points<Dim> points = at_rest_and_sound<Dim>(spalling(1e9));
   Particles<Dim>& p = points.particles;
   // -1 GPa lie at eta = -0.013 or so.
@@ -97,7 +105,7 @@ TEST(Spall, ElasticEnergyStaysAsHeat) {
   // Sheared elastically, then opened: the energy of the shear is in the temperature afterwards.
   MaterialParameters strong = spalling(1e9);
   strong.yield = 5e9;
-  const std::vector<Material> materials = {make_material(strong)};
+  const std::vector<Material> materials = {brittle(strong)};
   Points<2> sheared = at_rest_and_sound<2>(strong), plain = sheared;
   for (int k = 0; k < 4; ++k) sheared.particles.deviator[k][0] = 0.0;
   const double shear_stress = 2e9, shear = 69e9 / 2.66;
@@ -155,8 +163,70 @@ TEST(Spall, OpenedParticleHasTheTemperatureOfItsSolid) {
               300.0 * std::pow(1.0 - eta, -2.0) + 1e5 / 880.0, 1e-6);
 }
 
+template <int Dim>
+void opens_and_fails(Thermal thermal) {
+  MaterialParameters m = spalling(1e9);
+  m.young = m.yield = m.hardening = 0.0;
+  const std::vector<Material> materials = {make_material(m)};
+  const reference::Solid solid = reference::fluid_of(reference::solid(m));
+  Points<Dim> points = at_rest_and_sound<Dim>(m);
+  Particles<Dim>& p = points.particles;
+  const auto T = [&] {
+    return temperature(materials[0], thermal, {p.density[0], p.internal_energy[0]});
+  };
+  // The solid bears 1 GPa at a volume 1 + S/K; then a tenth more opens at this tension.
+  stretch(materials, thermal, 1e5, 600, points, 1.0);
+  EXPECT_EQ(p.failed[0], 0);
+  EXPECT_EQ(p.pressure[0], -1e9);
+  const double opened = 2700.0 / p.density[0] - 1.0 - 1e9 / solid.bulk();
+  EXPECT_NEAR(opened, std::expm1(0.06) - 0.013, 1e-3);
+  // Work of the solid, then of what opens.
+  const double work = (0.5 * 1e9 * 1e9 / solid.bulk() + 1e9 * opened) / 2700.0;
+  EXPECT_NEAR(p.internal_energy[0] / work, 1.0, 2e-3);
+  const double closed = reference::first_root(
+      [&](double v) { return reference::pressure(solid, v, p.internal_energy[0]) + 1e9; },
+      0.999 * solid.volume(), 1.5 * solid.volume());
+  EXPECT_NEAR(T(),
+              thermal == Thermal::conserving
+                  ? reference::temperature(solid, closed, p.internal_energy[0])
+                  : 300.0 * std::pow(1.0 + 1e9 / solid.bulk(), -2.0),
+              thermal == Thermal::conserving ? 1e-6 : 0.5);
+  // It closes at the tension at which it opened, and is then what it was.
+  stretch(materials, thermal, -1e5, 600, points, 1.0);
+  EXPECT_EQ(p.failed[0], 0);
+  EXPECT_NEAR(p.pressure[0], 0.0, 2e-3 * 1e9);
+  EXPECT_NEAR(p.internal_energy[0] / work, 0.0, 2e-3);
+  stretch(materials, thermal, 1e5, 980, points, 1.0);
+  EXPECT_EQ(p.failed[0], 0);
+  EXPECT_EQ(p.pressure[0], -1e9);
+  stretch(materials, thermal, 1e5, 150, points, 1.0);
+  EXPECT_EQ(p.failed[0], 1);
+  EXPECT_EQ(p.pressure[0], 0.0);
+}
+
+TEST(Spall, FailsWhenSoundHasCrossed32Cells) {
+  // A step crosses 0.535 cells: the strength is reached in step 130 or so, and 60 more it opens.
+  const std::vector<Material> materials = {make_material(spalling(1e9))};
+  Points<2> points = at_rest_and_sound<2>(spalling(1e9));
+  const Particles<2>& p = points.particles;
+  int opening = 0, steps = 0;
+  for (; steps < 400 && p.failed[0] <= 0; ++steps) {
+    opening += p.failed[0] < 0 ? 1 : 0;
+    stretch(materials, Thermal::conserving, 1e5, 1, points);
+  }
+  EXPECT_EQ(p.failed[0], 1);
+  EXPECT_EQ(opening, 59);
+}
+
+TEST(Spall, OpensAtItsStrengthAndFailsWhenATenthIsOpen) {
+  for (const Thermal thermal : {Thermal::paper, Thermal::conserving}) {
+    opens_and_fails<2>(thermal);
+    opens_and_fails<3>(thermal);
+  }
+}
+
 TEST(Spall, OtherMaterialsOfTheSceneHold) {
-  const std::vector<Material> materials = {make_material(spalling(1e9)),
+  const std::vector<Material> materials = {brittle(spalling(1e9)),
                                            make_material(reference::aluminium())};
   Points<2> points(2, false);
   points.particles.options.failed = true;

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "poreshock/material/derived.hpp"
+#include "poreshock/run/trace.hpp"
 #include "support/runs.hpp"
 #include "support/same_bits.hpp"
 
@@ -91,7 +92,7 @@ Spalling observe(double cell, double spall) {
     seen.fastest = std::max(seen.fastest, ends[1]);
   }
   MPI_Allreduce(MPI_IN_PLACE, &seen.tension, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-  for (const std::int32_t f : sim.particles.failed) seen.failed += f;
+  for (const std::int32_t f : sim.particles.failed) seen.failed += f > 0 ? 1 : 0;
   seen.failed = sum(seen.failed, MPI_COMM_WORLD);
   return seen;
 }
@@ -108,21 +109,76 @@ TEST(Spall, WithoutAStrengthTensionReachesTheAcousticValue) {
 TEST(Spall, PullBackOfTheFreeSurface) {
   const double strength = 0.5 * plateau_pressure;
   const double exact = 2.0 * strength / (density * c0);
-  const Spalling coarse = observe(5e-6, strength), fine = observe(2.5e-6, strength);
-  for (const Spalling& seen : {coarse, fine}) {
+  // It holds its strength until it has opened, so that the dip has a flat bottom, which no front of
+  // a few cells rounds off.
+  // Corners of the wave ring, and the material is stiffer under pressure by 1.4 %.
+  for (const double cell : {5e-6, 2.5e-6}) {
+    const Spalling seen = observe(cell, strength);
     EXPECT_GT(seen.failed, 0);
     EXPECT_LE(seen.tension, strength);
     EXPECT_GT(seen.tension, 0.999 * strength);
+    EXPECT_NEAR((seen.fastest - seen.slowest_after) / exact, 1.0,
+                0.03 * std::max(1.0, cell / 3e-6));
   }
-  // The signal ends in a cusp, which viscosity rounds over a width that grows as the square root of
-  // cell and distance: the pull-back comes out too small by such a share.
-  const double deficit = exact - (coarse.fastest - coarse.slowest_after);
-  const double rest = exact - (fine.fastest - fine.slowest_after);
-  EXPECT_GT(rest, 0.0);
-  EXPECT_LT(deficit, 0.18 * exact);
-  EXPECT_LT(rest, 0.8 * deficit);
-  const double limit = exact - (std::sqrt(2.0) * rest - deficit) / (std::sqrt(2.0) - 1.0);
-  EXPECT_NEAR(limit / exact, 1.0, 0.05);
+}
+
+/// Spall strength (Pa) that the free surface of a target tells which a flyer hits at 1100 m/s.
+double told_strength(double cell, double strength, std::vector<std::string> material) {
+  char text[512];
+  std::snprintf(text, sizeof text, R"(
+[domain]
+size = [%g, 2.4e-3]
+cell = %g
+periodic = true
+[boundary]
+low = "free"
+high = "free"
+[[body]]
+shape = "box"
+low = [0, 0.1e-3]
+high = [%g, 0.7e-3]
+velocity = [0, 1100]
+grain = 1
+[[body]]
+shape = "box"
+low = [0, 0.7e-3]
+high = [%g, 1.9e-3]
+grain = 2
+[time]
+end = 450e-9
+)",
+                4.0 * cell, cell, 4.0 * cell, 4.0 * cell);
+  material.push_back("material.0.spall=" + std::to_string(strength));
+  Simulation<2> sim =
+      start<2>(scene_of(text + std::string(aluminium_text), material), MPI_COMM_WORLD);
+  const double layer = 2.0 * 4.0, last = 1.9e-3 / (0.5 * cell) - 1.0;
+  std::vector<double> time, velocity;
+  while (sim.clock.time < sim.scene.time.end) {
+    advance_to(sim.clock.step + 1, 0, sim);
+    double speed = 0.0;
+    for (std::size_t p = 0; p < sim.particles.size(); ++p) {
+      // The layer that lay at the free surface.
+      if (static_cast<double>(sim.particles.id[p]) < layer * last) continue;
+      speed += sim.particles.velocity[1][p] / layer;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    time.push_back(sim.clock.time);
+    velocity.push_back(speed);
+  }
+  return read_figures(time, velocity, density * c0).spall_strength;
+}
+
+TEST(Spall, PlateTellsItsStrength) {
+  // Without strength the acoustic formula is exact: expansion is linear in the volume.
+  const std::vector<std::string> fluid = {"material.0.young=0.0", "material.0.yield=0.0",
+                                          "material.0.hardening=0.0"};
+  EXPECT_NEAR(told_strength(10e-6, 2e9, fluid) / 2e9, 1.0, 0.03);
+  EXPECT_NEAR(told_strength(10e-6, 1e9, fluid) / 1e9, 1.0, 0.03);
+  EXPECT_NEAR(told_strength(5e-6, 2e9, fluid) / 2e9, 1.0, 0.01);
+}
+
+TEST(Spall, PlateWithAYieldStressTellsItsStrength) {
+  EXPECT_NEAR(told_strength(5e-6, 2e9, {}) / 2e9, 1.0, 0.03);
 }
 
 /// A flyer of half the thickness hits a target; the releases of both free sides meet in it.
@@ -157,7 +213,7 @@ TEST_P(SpallEnergy, Closes) {
   const HistoryRow before = stock(sim);
   advance_to(500, 0, sim);
   std::int64_t failed = 0;
-  for (const std::int32_t f : sim.particles.failed) failed += f;
+  for (const std::int32_t f : sim.particles.failed) failed += f > 0 ? 1 : 0;
   EXPECT_GT(sum(failed, MPI_COMM_WORLD), 10);
   EXPECT_LT(sum(failed, MPI_COMM_WORLD), before.particles / 2);
   EXPECT_NEAR(stock(sim).total / before.total, 1.0, 1e-12);

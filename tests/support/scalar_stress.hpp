@@ -23,7 +23,8 @@ struct StressLaw {
   double quadratic = 2.25;
   double cell = 0.0;  ///< m
   double cfl = 0.35;
-  double spall = std::numeric_limits<double>::infinity();  ///< Pa, tension
+  double spall = std::numeric_limits<double>::infinity();   ///< Pa, tension
+  double opened = std::numeric_limits<double>::infinity();  ///< Pa, of the solid when it fails
   /// In place of linear hardening, Pa of plastic strain and rate (1/s).
   std::function<double(double, double)> flow{};
 };
@@ -193,7 +194,12 @@ inline PointReport advance_point(const StressLaw& law, const PointMotion& motion
     const double bulk2 = -v * v * curve_slope(m, v) + m.gamma * p.plastic_work;
     report.sound_speed = std::sqrt(bulk2 + 4.0 / 3.0 * m.shear * v);
   }
-  if (p.failed || p.pressure < -law.spall) fail(law, v, report, p);
+  if (p.failed || p.pressure < -law.opened) {
+    fail(law, v, report, p);
+  } else if (p.pressure < -law.spall) {
+    p.pressure = -law.spall;
+    report.sound_speed = std::sqrt(m.c0 * m.c0 + 4.0 / 3.0 * m.shear * v);
+  }
   const double closing = std::max(0.0, -motion.gradient.trace()) * law.cell;
   const double c = report.sound_speed;
   const double faded = closing / (closing + 1e-6 * c);

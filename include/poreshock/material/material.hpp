@@ -44,7 +44,7 @@ struct MaterialParameters {
   double cv = 0.0;            ///< J/(kg K)
   double conductivity = 0.0;  ///< W/(m K)
   double T0 = 300.0;          ///< K
-  double spall = 0.0;         ///< Pa, tension at which the material fails; 0 = never
+  double spall = 0.0;         ///< Pa, tension at which the material opens; 0 = never
   MeltingLaw melting = MeltingLaw::none;
   MeltParameters melt;
 
@@ -68,6 +68,7 @@ struct Material {
   PlasticHeat plastic_heat = PlasticHeat::work;
   double conductivity = 0.0;                               ///< W/(m K)
   double spall = std::numeric_limits<double>::infinity();  ///< Pa, infinite where it cannot fail
+  double opened_tension = std::numeric_limits<double>::infinity();  ///< Pa, at which it fails
 
   /// Energy per mass stored in the deviator, s:s/(4 G rho), J/kg; zero for a fluid.
   double deviatoric_energy(double deviator_square, double density) const {
@@ -96,13 +97,14 @@ struct ThermalState {
   double conducted_heat = 0.0;      ///< J/kg, paper mode only
   double deviator_square = 0.0;     ///< s:s, Pa^2
   double back_stress_square = 0.0;  ///< Pa^2
-  bool failed = false;              ///< spalled: what has opened is not solid
+  bool failed = false;              ///< spalled: bears no tension
 };
 
 /// Temperature and molten share. paper: T_r(V) + (W_p + conducted heat)/c_v (eqs 6, 7); conserving:
-/// T_r(V) + (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. A failed particle that
-/// has opened has the volume of its solid without load. A material that melts holds T on its melt
-/// line while both phases are there (conserving mode only). Not clamped.
+/// T_r(V) + (E - E_r(V))/c_v with the elastic deviatoric energy taken off E. Where it has
+/// opened, its solid has the volume at the spall strength, failed that without load. A material
+/// that melts holds T on its melt line while both phases are there (conserving mode only). Not
+/// clamped.
 MaterialPhase material_phase(const Material& material, Thermal thermal, const ThermalState& state);
 
 /// The temperature alone, K.

@@ -69,12 +69,13 @@ inline EquationOfState paper_state(const MieGruneisen& eos, double density, doub
           eos.density * (v * v) * r.pressure_slope + eos.gamma * plastic_work};
 }
 
-/// Compression eta at which the branch of expansion bears no pressure: K eta (1 - c eta) + gamma
-/// rho0 heat = 0, where c is 1 + gamma/2 when `heat` (J/kg) is the internal energy and 1 when it is
-/// the plastic work of the paper's model.
-inline double unloaded_eta(const MieGruneisen& eos, double c, double heat) {
-  const double square = 1.0 + 4.0 * c * (eos.gamma * eos.density * heat / eos.bulk);
-  return (1.0 - std::sqrt(square > 0.0 ? square : 0.0)) / (2.0 * c);
+/// Compression eta at which the branch of expansion bears a tension S (Pa): K eta (1 - c eta) +
+/// gamma rho0 heat + S (1 - eta) = 0, where c is 1 + gamma/2 when `heat` (J/kg) is the internal
+/// energy and 1 when it is the plastic work of the paper's model.
+inline double eta_in_tension(const MieGruneisen& eos, double c, double heat, double tension) {
+  const double s = tension / eos.bulk, b = 1.0 - s;
+  const double square = b * b + 4.0 * c * (eos.gamma * eos.density * heat / eos.bulk + s);
+  return (b - std::sqrt(square > 0.0 ? square : 0.0)) / (2.0 * c);
 }
 
 /// Temperature along the reference curve, T_r(eta), tabulated (paper eq 6; T V^gamma constant in

@@ -73,7 +73,7 @@ struct ParticleColumns {
   std::array<Store<double>, symmetric_size<Dim>> deviator;  ///< tension positive
   std::array<Store<double>, symmetric_size<Dim>> back_stress;
   Store<double> conducted_heat;  ///< received by conduction; part of internal_energy
-  Store<std::int32_t> failed;    ///< 1 once the tension has exceeded the spall strength
+  Store<std::int32_t> failed;    ///< 1, or less than 0 while it opens at its strength
   /// Unit vector out of the material towards the surface it is nearest to; 0 far from all.
   std::array<Store<double>, Dim> facing;
 
