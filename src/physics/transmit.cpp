@@ -1,5 +1,6 @@
 #include "poreshock/physics/transmit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "poreshock/transfer/node_views.hpp"
@@ -21,10 +22,20 @@ Backing make_backing(const MaterialParameters& p) {
 
 double backing_stress(const Backing& b, double w) {
   const double size = w < 0.0 ? -w : w;
-  const double elastic = b.shear_impedance * size;
-  const double deviator = elastic < b.strength ? elastic : b.strength;
-  const double steep = w > 0.0 ? b.lambda * w : 0.0;
-  return b.density * w * (b.c0 + steep) + (w < 0.0 ? -deviator : deviator);
+  const double longitudinal = b.c0 + b.shear_impedance / b.density;
+  // Up to its elastic limit it is stiff; what follows runs into what the precursor has moved.
+  const double rise = b.shear_impedance * (1.0 + b.c0 / longitudinal);
+  const double limit = rise > 0.0 ? b.strength / rise : 0.0;
+  const double elastic = size < limit ? size : limit, plastic = size - elastic;
+  const double steep = w > 0.0 ? b.lambda : 0.0;
+  const double stress = b.density * (elastic * (longitudinal + steep * elastic) +
+                                     plastic * (b.c0 + steep * (size + elastic)));
+  return w < 0.0 ? -stress : stress;
+}
+
+double front_stress(const Backing& b, double w, double viscous_pressure) {
+  const double most = w > 0.0 ? b.density * b.lambda * w * w : 0.0;
+  return std::min(0.5 * viscous_pressure, most);
 }
 
 template <int Dim>

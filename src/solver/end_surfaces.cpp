@@ -28,6 +28,7 @@ EndSurfaces find_ends(const Scene& scene) {
   ends.low = backing_of(scene, scene.boundary.low);
   ends.high = backing_of(scene, scene.boundary.high);
   ends.top = sample_layers(scene) - 1;
+  ends.density = scene.materials[static_cast<std::size_t>(scene.sample.material)].density;
   ends.rest = scene.loading.frame[dimension - 1] - scene.loading.velocity;
   return ends;
 }
@@ -53,8 +54,12 @@ void sum_ends(const Transfer& transfer, const Particles<Dim>& particles, const C
               sums[n][end_force] += force * (node_weight(stencil, n) + outward * beyond * slope);
             }
           };
-          if (below) push(ends.area * backing_stress(*ends.low, -speed), -1.0);
-          if (above) push(-ends.area * backing_stress(*ends.high, speed), 1.0);
+          const auto stress = [&](const Backing& behind, double into) {
+            const double q = particles.viscous_pressure[p] * (behind.density / ends.density);
+            return backing_stress(behind, into) + front_stress(behind, into, q);
+          };
+          if (below) push(ends.area * stress(*ends.low, -speed), -1.0);
+          if (above) push(-ends.area * stress(*ends.high, speed), 1.0);
         },
         *ends.forces);
   });

@@ -21,9 +21,16 @@ struct Backing {
 Backing make_backing(const MaterialParameters& p);
 
 /// Longitudinal stress (Pa, compression positive) of the half space when its surface moves into it
-/// at w (m/s): rho w (c0 + lambda w), acoustic where w < 0, and the deviator, elastic up to the
-/// strength. Pure function.
+/// at w (m/s): rho w (c_l + lambda w) up to the elastic limit w_e, where the deviator is that of
+/// the strength, and rho (w - w_e) (c0 + lambda (w + w_e)) more beyond. Acoustic where w < 0. Pure
+/// function.
 double backing_stress(const Backing& backing, double w);
+
+/// What a front that is as wide as its artificial viscosity (Pa) makes it adds to that, Pa. It goes
+/// on with a speed c0 + lambda W, so its stress is rho w (c0 + lambda W) before the velocity is W:
+/// rho lambda w (W - w) more, which is half of its viscosity where lambda W is small beside c0, and
+/// no more than rho lambda w^2 in its upper half. Pure function.
+double front_stress(const Backing& backing, double w, double viscous_pressure);
 
 /// Lane of the grid of end surfaces: N (N/m in plane strain), force along the shock axis.
 inline constexpr int end_force = 0;

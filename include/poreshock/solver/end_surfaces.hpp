@@ -17,6 +17,7 @@ struct EndSurfaces {
   std::int64_t layer = 1;            ///< particles of a layer of the sample
   std::int64_t top = 0;              ///< its highest layer
   double area = 1.0;                 ///< m^(Dim-1), of the end, for each particle of a layer
+  double density = 0.0;              ///< kg/m^3, of the sample at rest
   double rest = 0.0;                 ///< m/s along the shock axis, of the material behind
   std::unique_ptr<SlabGrid> forces;  ///< scratch; only with material behind an end
 };
