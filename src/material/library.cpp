@@ -12,9 +12,9 @@ namespace {
 // before anything hangs on it. Steinberg's heat capacities, taken as cv, are at constant pressure:
 // 3 to 5 % more. Conductivities are handbook values at room temperature.
 
-// Of pure aluminium: Dinsdale, SGTE data for pure elements, CALPHAD 15 (1991) 317; its
-// latent heat, 10711 J/mol, is unchecked. The melt curve is Lindemann's, from the material's own
-// gamma.
+// Of pure aluminium: Dinsdale, SGTE data for pure elements, CALPHAD 15 (1991) 317. Its latent heat
+// is that of his Gibbs energies, G_liquid - G_solid = 11005.029 - 11.841867 T + 7.934e-20 T^7:
+// 10711 J/mol. The melt curve is Lindemann's, from the material's own gamma.
 constexpr MeltParameters aluminium_melt{933.47, 397.0e3, 0.0, 0.0};
 
 MaterialParameters paper_aluminium() {
@@ -65,7 +65,8 @@ MaterialParameters copper() {
   m.lambda = 1.489;
   m.gamma = 2.02;
   m.cv = 383.0;
-  m.melt = {1357.77, 208.7e3};  // pure copper, Dinsdale 1991: 13263 J/mol, unchecked
+  // Pure copper, Dinsdale 1991: 12964.735 - 9.511904 T - 5.8489e-21 T^7, so 13263 J/mol.
+  m.melt = {1357.77, 208.7e3};
   m.conductivity = 401.0;
   return m;
 }
@@ -146,16 +147,16 @@ const std::vector<LibraryMaterial>& material_library() {
           "aluminium of \"Temperature pattern dynamics in shocked porous materials\"",
           "the paper; c0, lambda and gamma are those of 6061: Marsh, LASL Shock Hugoniot Data, "
           "1980, in Meyers, Dynamic Behavior of Materials, 1994. Checked. Melt: Dinsdale, CALPHAD "
-          "15 (1991) 317, pure aluminium; latent heat unchecked"),
+          "15 (1991) 317, pure aluminium, checked"),
       entry("aluminium_6061_t6", aluminium_6061_t6(), "aluminium alloy 6061-T6",
             "Steinberg, LLNL UCRL-MA-106439, change 1, 1996 (shear modulus, yield, Us-up, gamma, "
             "cv, steinberg_guinan); Lesuer, Kay & LeBlanc, LLNL UCRL-JC-134118, 2001 "
             "(johnson_cook). Checked but for the melting temperature of johnson_cook. Melt: "
-            "Dinsdale, CALPHAD 15 (1991) 317, pure aluminium; latent heat unchecked"),
+            "Dinsdale, CALPHAD 15 (1991) 317, pure aluminium, checked"),
       entry("copper", copper(), "copper, oxygen-free, high conductivity",
             "Steinberg 1996 (shear modulus, yield, Us-up, gamma, cv, steinberg_guinan, half "
             "hard); Johnson & Cook, 7th Int. Symp. Ballistics, 1983 (johnson_cook, annealed). "
-            "Checked. Melt: Dinsdale, CALPHAD 15 (1991) 317; latent heat unchecked"),
+            "Checked. Melt: Dinsdale, CALPHAD 15 (1991) 317, checked"),
       entry("tungsten", tungsten(), "tungsten",
             "Steinberg 1996. Checked: density, Us-up, gamma, cv and the limit of the flow stress; "
             "not checked: shear modulus, yield and the rest of steinberg_guinan"),

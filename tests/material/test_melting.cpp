@@ -73,6 +73,22 @@ TEST(Melting, Curves) {
   EXPECT_NEAR(melting_temperature(*simon.melt, 3000.0, -1e9), 933.0, 1e-9);
 }
 
+TEST(Melting, LatentHeatsFollowFromGibbsEnergies) {
+  // G_liquid - G_solid = a + b T + c T^7 vanishes where it melts; H = G - T dG/dT (Dinsdale 1991).
+  struct Metal {
+    const char* name;
+    double a, b, c, mass;  // J/mol ..., kg/mol
+  };
+  for (const Metal& m : {Metal{"paper_aluminium", 11005.029, -11.841867, 7.934e-20, 26.982e-3},
+                         Metal{"aluminium_6061_t6", 11005.029, -11.841867, 7.934e-20, 26.982e-3},
+                         Metal{"copper", 12964.735, -9.511904, -5.8489e-21, 63.546e-3}}) {
+    const MeltParameters melt = library_material(m.name)->parameters.melt;
+    const double T = melt.temperature, T7 = std::pow(T, 7.0);
+    EXPECT_NEAR(m.a + m.b * T + m.c * T7, 0.0, 1.0) << m.name;
+    EXPECT_NEAR(melt.latent_heat * m.mass / (m.a - 6.0 * m.c * T7), 1.0, 1e-3) << m.name;
+  }
+}
+
 TEST(Melting, NothingMeltsUnlessAsked) {
   MaterialParameters p = library_material("copper")->parameters;
   EXPECT_GT(p.melt.latent_heat, 0.0);
