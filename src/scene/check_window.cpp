@@ -1,5 +1,7 @@
 #include "check_window.hpp"
 
+#include <string>
+
 namespace poreshock::scene_text {
 namespace {
 
@@ -19,11 +21,21 @@ bool moves_straight(const Scene& scene) {
   return true;
 }
 
-bool looks_at_points(const Scene& scene) {
-  for (const Probe& probe : scene.probes) {
-    if (probe.kind != ProbeKind::point) return false;
+/// Names every probe that looks at material, which may not be made yet or no longer be there.
+void require_points(const Scene& scene, Report& report) {
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const ProbeKind kind = scene.probes[i].kind;
+    if (kind == ProbeKind::point) continue;
+    const char* found = kind == ProbeKind::surface     ? "surface"
+                        : kind == ProbeKind::interface ? "interface"
+                                                       : "particle";
+    add_problem("probe." + std::to_string(i) + ".kind",
+                std::string("found \"") + found +
+                    "\", allowed with time.follow = \"front\" only \"point\": the material that it "
+                    "looks at may not be made yet, or handed over. Look at a point, or take a "
+                    "domain of the whole sample without time.follow",
+                report);
   }
-  return true;
 }
 
 }  // namespace
@@ -49,8 +61,7 @@ void check_window(const Scene& scene, Report& report) {
   require(!scene.contact.self, "with contact.self = false");
   require(scene.morphology.lattice == MapLattice::eulerian,
           "with morphology.lattice = \"eulerian\"");
-  require(looks_at_points(scene),
-          "with probes of kind = \"point\": other material may not be there");
+  require_points(scene, report);
 }
 
 }  // namespace poreshock::scene_text

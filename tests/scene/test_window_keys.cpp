@@ -22,6 +22,20 @@ TEST(Window, AllowsASampleHigherThanTheDomain) {
       << refused;
 }
 
+TEST(Window, NamesEveryProbeThatLooksAtMaterial) {
+  const std::string text = problems(
+      window_scene(
+          "[[probe]]\nname = \"a\"\nat = [5e-5]\n[[probe]]\nname = \"b\"\nkind = "
+          "\"point\"\nat = [5e-5, 1e-4]\n[[probe]]\nname = \"c\"\nkind = \"particle\"\nat = "
+          "[5e-5, 1e-4]\n"),
+      {"sample.height=20e-3"});
+  EXPECT_NE(text.find("probe.0.kind: found \"surface\", allowed with time.follow"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("probe.2.kind: found \"particle\""), std::string::npos) << text;
+  EXPECT_EQ(text.find("probe.1"), std::string::npos) << text;
+}
+
 TEST(Window, NamesAllThatItCannotFollow) {
   const std::string text =
       problems(window_scene("[conduction]\non = true\n[[void]]\nshape = \"disc\"\ncenter = [5e-5, "
