@@ -145,6 +145,24 @@ class Measuring(unittest.TestCase):
         notes = profiles.measure(self.folder).notes
         self.assertTrue(notes[0].startswith("Void fraction 0.3700,"), notes[0])
 
+    def test_strips_left_behind_do_not_slow_the_front(self):
+        rows, _ = self.table()
+        scene = self.folder / "scene.toml"
+        text_before = scene.read_text()
+        self.assertNotIn("[time]", text_before)
+        scene.write_text(text_before + '[time]\nfollow = "front"\n')
+        with h5py.File(self.folder / "profiles.h5", "r+") as file:
+            # Strips of 40 and 30 um; the sample goes on above the window.
+            left = numpy.select([numpy.arange(41) > 30, numpy.arange(41) > 20], [70e-6, 40e-6], 0.0)
+            file["row/shift"][:] = left
+            file["front/position"][:] -= left
+            file["row/solid_fraction"][0] = 0.7
+        measured, notes = self.table()
+        self.assertEqual([row[0] for row in measured], [row[0] for row in rows])
+        self.assertEqual(measured[0][1], rows[0][1])
+        self.assertEqual([row[5] for row in measured], [row[5] for row in rows])
+        self.assertIn("The domain follows the front", notes[-1])
+
     def test_command(self):
         def call(*names):
             return subprocess.run([TOOLS / "hugoniot.py", *names], capture_output=True, text=True, check=False)

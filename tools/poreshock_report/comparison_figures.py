@@ -61,12 +61,20 @@ def profiles(folders, names):
     return figure
 
 
+def path_of(folder, data):
+    """Heights of the front, m; without a wall those above the low side of the domain."""
+    try:
+        return measuring.front_path(data, measuring.setting_of(measuring.reader.read_scene(folder)))
+    except measuring.reader.Missing:
+        return data.front
+
+
 def front(folders, names):
     """Height of the front against time."""
     figure, axis = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
     for folder, dash, colour, text in zip(folders, DASHES, COLOURS, names):
         data = measuring.read(folder)
-        axis.plot(1e9 * data.time, 1e3 * data.front, color=colour, linestyle=dash, label=text)
+        axis.plot(1e9 * data.time, 1e3 * path_of(folder, data), color=colour, linestyle=dash, label=text)
     axis.set(xlabel="time [ns]", ylabel="height of the front [mm]")
     axis.legend()
     return figure

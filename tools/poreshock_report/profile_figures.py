@@ -45,7 +45,7 @@ def front(folder):
     setting = measuring.setting_of(reader.read_scene(folder))
     data = measuring.read(folder)
     fit = measuring.fit_front(data, setting)
-    time, height = 1e9 * data.time, 1e3 * data.front
+    time, height = 1e9 * data.time, 1e3 * measuring.front_path(data, setting)
     line = 1e3 * (fit.start + fit.slope * data.time)
     figure, axes = plt.subplots(2, 1, sharex=True, figsize=(7.0, 6.2), layout="constrained", height_ratios=(3, 1))
     ends = fit.used[[0, -1]]

@@ -24,6 +24,7 @@ class Profiles:
     height: numpy.ndarray  # m above the low side of the grid, rows
     front: numpy.ndarray  # m above the low side of the grid, n, NaN without a front
     width: numpy.ndarray  # m, n
+    shift: numpy.ndarray  # m, n, of the low side in the laboratory
     row: dict  # name -> n x rows; `velocity` is the one along the shock axis
 
 
@@ -54,7 +55,8 @@ def read(folder):
     row = {name[4:]: values for name, values in columns.items()
            if name.startswith("row/") and values.ndim == 2}
     row["velocity"] = row.get("velocity_z", row["velocity_y"])
-    return Profiles(columns["row/time"], rows, columns["front/position"], columns["front/width"], row)
+    return Profiles(columns["row/time"], rows, columns["front/position"], columns["front/width"],
+                    columns.get("row/shift", numpy.zeros(len(records))), row)
 
 
 @dataclass(frozen=True)
@@ -68,6 +70,8 @@ class Setting:
     void_diameter: float
     void_fraction: float  # the wanted one
     thermal: str
+    wall: float  # velocity of the low side in the laboratory
+    follows: bool  # the domain is a window that follows the front
     linear: bool  # the yield stress rises linearly, as in the exact solution
 
 
@@ -87,6 +91,7 @@ def setting_of(scene):
                        sample.get("height", size[-1]),
                        2.0 * sample.get("void_radius", 0.0) if voids else 0.0,
                        sample.get("porosity", 0.0) if voids else 0.0, str(scene.get("thermal")),
+                       low.get("velocity", 0.0), scene.get("time", {}).get("follow") == "front",
                        chosen.get("strength", "linear") == "linear")
     except (KeyError, ValueError) as error:
         raise reader.Missing(f"scene.toml does not describe the shock: {error}") from None
@@ -102,6 +107,13 @@ class FrontFit:
     used: numpy.ndarray  # indices of the records
 
 
+def front_path(profiles, setting):
+    """Heights of the front above where the low side would be if it had left no strips behind, m."""
+    if not setting.follows:
+        return profiles.front
+    return profiles.front + profiles.shift - profiles.shift[0] - setting.wall * (profiles.time - profiles.time[0])
+
+
 def fit_front(profiles, setting):
     """Fit of the front over all records in which it is far enough from the wall."""
     entry = max(ENTRY * setting.cell, 2.0 * setting.void_diameter)
@@ -110,7 +122,7 @@ def fit_front(profiles, setting):
     if len(used) < LEAST_RECORDS:
         raise reader.Missing(f"the front is further than {1e6 * entry:.4g} um from the wall in {len(used)} records, "
                              f"and {LEAST_RECORDS} are needed: ask for more with [profile] every")
-    time, front = profiles.time[used], profiles.front[used]
+    time, front = profiles.time[used], front_path(profiles, setting)[used]
     slope, start = numpy.polyfit(time - time.mean(), front, 1)
     rest = front - start - slope * (time - time.mean())
     error = numpy.sqrt(numpy.sum(rest**2) / (len(used) - 2) / numpy.sum((time - time.mean())**2))
@@ -170,8 +182,12 @@ def void_fraction(profiles, setting):
     """Void fraction of the sample as it was made, from the first record; the wanted one without it."""
     if profiles.time[0] > 0.0:
         return setting.void_fraction
-    solid = profiles.row["solid_fraction"][0].sum() * setting.cell
-    return max(0.0, 1.0 - solid / setting.height)
+    solid = profiles.row["solid_fraction"][0]
+    if setting.follows:
+        # More of the sample lies above the window; its own bottom is looser than its middle.
+        made = solid[profiles.height < setting.height]
+        return max(0.0, 1.0 - float(made[len(made) // 4:].mean()))
+    return max(0.0, 1.0 - solid.sum() * setting.cell / setting.height)
 
 
 def wall_stress(folder, scene, profiles, fit):
@@ -228,7 +244,7 @@ class Shock:
 
 def method(setting, profiles, fit, state, voids):
     """Sentences that say how the numbers of a table were measured."""
-    used = profiles.front[fit.used]
+    used = front_path(profiles, setting)[fit.used]
     notes = [
         f"Void fraction {voids:.4f}, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
         f"Us: straight line through {len(used)} heights of the front from {1e3 * used[0]:.3f} to "
@@ -243,6 +259,10 @@ def method(setting, profiles, fit, state, voids):
         "residual motion beside the stress; P at the wall is the wall impulse over area and time.",
         "Curves: the solid with strength, complete collapse without strength (snow-plow), and P-alpha with the "
         f"static crush curve of {'cylinders' if setting.dimension == 2 else 'spheres'}."]
+    if setting.follows:
+        notes.append("The domain follows the front: heights of the front count from the wall as it would be without "
+                     "strips, rows of the state from the wall that took the place of the last strip. The void fraction "
+                     "is that of the first window without its lowest quarter.")
     if setting.thermal == "paper" and voids > POROUS:
         notes.append("The curves of porous material hold for thermal = \"conserving\"; in paper mode T leaves out heat "
                      "that they have.")
