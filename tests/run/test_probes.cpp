@@ -103,7 +103,9 @@ TEST(Probes, SaysWhatItLooksAtAtTheStart) {
     EXPECT_NEAR(row.velocity[0], 0.0, 1e-9) << k;
     EXPECT_NEAR(row.temperature, 300.0, 1e-9) << k;
     EXPECT_EQ(row.pressure, 0.0);
-    if (counts[k] > 0.0) EXPECT_NEAR(row.mass / site, counts[k], 1e-9) << k;
+    if (counts[k] > 0.0) {
+      EXPECT_NEAR(row.mass / site, counts[k], 1e-9) << k;
+    }
   }
   // The mean of 1 - (r/R)^2 over a disc is half of its area, R^2 = width^2/2.
   ProbeTarget none;

@@ -63,7 +63,9 @@ TEST(TimeToGo, DoesNotMistakeRecordsForSteps) {
       const double to_go = seconds_to_go(now, whole.time, estimate);
       const double left = whole.wall - now.wall;
       // The last records are few.
-      if (step >= 400 && step <= 3600) EXPECT_NEAR(to_go, left, 0.2 * left) << step;
+      if (step >= 400 && step <= 3600) {
+        EXPECT_NEAR(to_go, left, 0.2 * left) << step;
+      }
     }
   }
 }

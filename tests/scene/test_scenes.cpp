@@ -17,7 +17,7 @@ TEST(Scenes, EveryKeyOf2D) {
   const Scene scene = parse(rich_2d);
   EXPECT_EQ(scene.title, "a \"quoted\" \\ title\twith a tab");
   EXPECT_EQ(scene.thermal, Thermal::paper);
-  EXPECT_EQ(scene.boundary.low, (Side{SideKind::wall, -12.3456789012345678}));
+  EXPECT_EQ(scene.boundary.low, (Side{SideKind::wall, -12.3456789012345678, {}}));
   EXPECT_EQ(scene.boundary.lateral[0], SideKind::symmetry);
   EXPECT_EQ(scene.materials.size(), 2u);
   EXPECT_EQ(scene.materials[0].plastic_heat, PlasticHeat::dissipation);
@@ -57,8 +57,8 @@ TEST(Scenes, EveryKeyOf3D) {
   EXPECT_EQ(scene.dimension, 3);
   EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{10, 8, 30}));
   EXPECT_EQ(scene.domain.periodic, (std::array<bool, 2>{true, false}));
-  EXPECT_EQ(scene.boundary.low, (Side{SideKind::symmetry, 0.0}));
-  EXPECT_EQ(scene.boundary.high, (Side{SideKind::free, 0.0}));
+  EXPECT_EQ(scene.boundary.low, (Side{SideKind::symmetry, 0.0, {}}));
+  EXPECT_EQ(scene.boundary.high, (Side{SideKind::free, 0.0, {}}));
   EXPECT_EQ(scene.boundary.lateral, (std::array<SideKind, 2>{SideKind::periodic, SideKind::wall}));
   EXPECT_EQ(scene.bodies[0].spin, (Triple{4.0, 5.0, 6.0}));
   EXPECT_EQ(scene.bodies[0].region.center, (Triple{5e-5, 4e-5, 1e-4}));
@@ -167,7 +167,7 @@ TEST(Scenes, Overrides) {
   EXPECT_EQ(parse(small_scene(), {"loading.velocity=7"}).loading.velocity, 7.0);
   const Scene moved =
       parse(small_scene(), {"boundary.low={kind=\"wall\", velocity=3}", "boundary.low.velocity=4"});
-  EXPECT_EQ(moved.boundary.low, (Side{SideKind::wall, 4.0}));
+  EXPECT_EQ(moved.boundary.low, (Side{SideKind::wall, 4.0, {}}));
   EXPECT_EQ(parse(rich_2d, {"body.0.center.1=2.6e-4"}).bodies[0].region.center[1], 2.6e-4);
   const Scene step = parse(rich_2d, {"morphology.thresholds.temperature.step=5"});
   EXPECT_EQ(step.morphology.fields[1].thresholds, (std::vector<double>{310.0, 315.0, 320.0}));
@@ -190,7 +190,7 @@ TEST(Scenes, PaperFigure1) {
   const Scene scene = read_scene(folder + "fig1.toml");
   EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{200, 1100, 0}));
   EXPECT_EQ(scene.boundary.lateral[0], SideKind::periodic);
-  EXPECT_EQ(scene.boundary.low, (Side{SideKind::wall, 0.0}));
+  EXPECT_EQ(scene.boundary.low, (Side{SideKind::wall, 0.0, {}}));
   EXPECT_EQ(scene.thermal, Thermal::paper);
   EXPECT_EQ(2.0 * scene.sample.void_radius / scene.domain.cell, 16.0);
   const std::vector<double>& levels = scene.morphology.fields.at(0).thresholds;
