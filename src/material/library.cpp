@@ -103,6 +103,21 @@ MaterialParameters magnesium_az31b() {
   return m;
 }
 
+MaterialParameters steel_304() {
+  MaterialParameters m;
+  m.density = 7896.0;  // McQueen et al. 1970, as all that has no other source
+  m.young = 199.9e9;   // G0 = 77 GPa, 1996
+  m.poisson = 0.298;   // that of this G0 and the bulk modulus density x c0^2
+  m.yield = 340.0e6;   // 1996
+  m.steinberg_guinan = {340.0e6, 43.0, 0.35, 0.0, 2.5e9, 26.0e-12, 4.5e-4, 300.0};  // 1996
+  m.c0 = 4569.0;
+  m.lambda = 1.490;
+  m.gamma = 2.17;
+  m.cv = 441.3;
+  m.conductivity = 16.3;
+  return m;
+}
+
 MaterialParameters pmma() {
   MaterialParameters m;
   m.density = 1186.0;  // Marsh
@@ -164,6 +179,11 @@ const std::vector<LibraryMaterial>& material_library() {
             "Steinberg 1996 (density, shear modulus, yield, Us-up, gamma, cv, steinberg_guinan). "
             "Checked against one transcription, whose copper is that of others; conductivity not "
             "checked"),
+      entry(
+          "steel_304", steel_304(), "stainless steel 304",
+          "McQueen et al. in Kinslow, High-Velocity Impact Phenomena, 1970 (density, Us-up, gamma, "
+          "cv); Steinberg 1996 (shear modulus, yield, steinberg_guinan). Each checked against one "
+          "transcription, of which the first has the tungsten and PMMA of others"),
       entry("pmma", pmma(), "polymethyl methacrylate",
             "Marsh 1980 (density, Us-up, sound speeds; not checked, but within 1 % of McQueen et "
             "al. in Kinslow, High-Velocity Impact Phenomena, 1970); McQueen et al. 1970 (gamma, "

@@ -42,15 +42,16 @@ class Commands(ProgramTest):
 
     def test_materials(self):
         names = self.succeed("materials").output.split("\n")
-        self.assertEqual([name for name in names if name and name[0] != " "][:7],
-                         ["paper_aluminium", "aluminium_6061_t6", "copper", "tungsten", "magnesium_az31b", "pmma", "hmx"])
+        self.assertEqual([name for name in names if name and name[0] != " "][:8],
+                         ["paper_aluminium", "aluminium_6061_t6", "copper", "tungsten", "magnesium_az31b", "steel_304",
+                          "pmma", "hmx"])
         text = self.succeed("materials", "copper").output
         scene = POROUS.replace(ALUMINIUM, "\n" + text.split("\n\n# with strength")[0])
         self.write("copper.toml", scene + "\n")
         self.write("by_name.toml", POROUS.replace(ALUMINIUM, '\n[[material]]\nname = "copper"\n'))
         self.assertEqual(self.succeed("check", "copper.toml").output, self.succeed("check", "by_name.toml").output)
         self.refuse('found the material "coper", allowed paper_aluminium, aluminium_6061_t6, copper, tungsten, magnesium_az31b, '
-                    'pmma, hmx',
+                    'steel_304, pmma, hmx',
                     "materials", "coper")
 
     def test_progress_rows_go_to_a_terminal_or_are_asked_for(self):

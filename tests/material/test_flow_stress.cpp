@@ -137,8 +137,9 @@ TEST(Library, NamesSourcesAndNumbers) {
     EXPECT_GT(sound, p.c0) << p.name;
     EXPECT_LT(sound, 1.5 * p.c0) << p.name;
   }
-  EXPECT_EQ(names, (std::set<std::string>{"paper_aluminium", "aluminium_6061_t6", "copper",
-                                          "tungsten", "magnesium_az31b", "pmma", "hmx"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"paper_aluminium", "aluminium_6061_t6", "copper", "tungsten",
+                                   "magnesium_az31b", "steel_304", "pmma", "hmx"}));
   EXPECT_EQ(library_material("unobtainium"), nullptr);
 }
 
@@ -151,6 +152,7 @@ TEST(Library, ShearModuli) {
   EXPECT_NEAR(shear("copper"), 47.7e9, 0.02e9);
   EXPECT_NEAR(shear("tungsten"), 160e9, 0.1e9);
   EXPECT_NEAR(shear("magnesium_az31b"), 16.5e9, 0.01e9);
+  EXPECT_NEAR(shear("steel_304"), 77.0e9, 0.01e9);
   EXPECT_NEAR(shear("pmma"), 2.33e9, 0.005e9);
   EXPECT_NEAR(shear("hmx"), 12e9, 0.01e9);
 }

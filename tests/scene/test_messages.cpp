@@ -117,7 +117,7 @@ std::string with_material(const std::string& lines) {
 TEST(Messages, MaterialsOfTheLibrary) {
   const std::string names =
       "\"paper_aluminium\", \"aluminium_6061_t6\", \"copper\", \"tungsten\", \"magnesium_az31b\", "
-      "\"pmma\" or \"hmx\"";
+      "\"steel_304\", \"pmma\" or \"hmx\"";
   EXPECT_EQ(problems(with_material("name = \"coper\"\n")),
             "s.toml:5:8: material.0.name: found \"coper\", allowed " + names +
                 ", did you mean \"copper\"?");
