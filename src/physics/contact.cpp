@@ -224,15 +224,19 @@ void resolve(std::span<ContactNode<Dim>> nodes, const FaceTable& faces) {
   push();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     collisions[n].pairs = pushing(collisions[n].pairs);
-    nodes[n].report.pairs = static_cast<int>(collisions[n].pairs.size());
     // What the particles keep is no impulse that they were given.
     for (std::size_t g = 0; g < nodes[n].grains.size(); ++g) {
       const NodeGrain<Dim>& grain = grains_of(n)[g];
       collisions[n].motion.end[g] = grain.end - grain.start * nodes[n].settings.kept;
     }
   }
-  if (nodes.front().settings.friction > 0.0) push();
+  const bool alone = nodes.front().grains.size() == 2;
+  if (alone || nodes.front().settings.friction > 0.0) push();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
+    // Two grains part where the tie would pull their particles and there is room for what closes.
+    const bool has_room = alone && !(nodes[n].report.penetration > 0.0);
+    if (has_room) collisions[n].pairs = pushing(collisions[n].pairs);
+    nodes[n].report.pairs = static_cast<int>(collisions[n].pairs.size());
     if (collisions[n].pairs.empty()) continue;
     tie_pairs<Dim, Count>(grains_of(n), nodes[n].settings, collisions[n], nodes[n].report);
   }

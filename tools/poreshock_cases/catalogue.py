@@ -54,7 +54,7 @@ KNOWN = {
     ("symmetry", "mirrored: largest difference of T and P"): LIMITERS,
     ("symmetry", "shifted by one cell: largest difference of T and P"): LIMITERS,
     ("closing", "slot: largest mean tension / largest compression"):
-        "12 % while the walls part, with 6.25 um cells; without self-contact 16 %.",
+        "10 % while the walls part, with 6.25 um cells; without self-contact 16 %.",
     ("very_porous", "wall stress, void fraction 0.5997"):
         "The stress on the wall swings by 10 % over 100 ns with 16 cells per void, and 10 % of the space behind the "
         "front are gaps that collapsed voids leave numerically.",

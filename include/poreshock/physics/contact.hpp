@@ -31,8 +31,10 @@ struct ContactNode {
 /// Lets the grains of a node collide: a pair that touches and closes is tied. Start
 /// and end velocities are projected on those of one normal velocity in every tied pair, orthogonal
 /// in sum m u . v. So the impulses do no work with the mean of both, and what the start velocities
-/// lose stays in the residuals of the particles, where the transfer keeps or heats it. Which pairs
-/// of a crowded node push each other is found by projected Gauss-Seidel; the projection is exact.
+/// lose stays in the residuals of the particles, where the transfer keeps or heats it. Two grains
+/// alone at a node that is not overfull part once the tie would pull their particles, though these
+/// residuals still close. Which pairs of a crowded node push each other is found by projected
+/// Gauss-Seidel; the projection is exact.
 ///
 /// Friction is Coulomb's with the impulse that the particles of a grain get: a pair that it holds
 /// is tied in all directions, another one slips, with the heat -J . (start + end)/2 of the relative
