@@ -1,6 +1,9 @@
 #include "poreshock/grid/node_layout.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include "poreshock/core/error.hpp"
 
 namespace poreshock {
 
@@ -42,7 +45,7 @@ void mark_nodes(int field, int row, int first, int last, NodeLayout& layout) {
 void finish_layout(NodeLayout& layout) {
   layout.runs.clear();
   layout.first_run.clear();
-  std::int32_t place = 0;
+  std::int64_t place = 0;
   std::int32_t* tiles = layout.shift.data();
   for (int line = 0; line < layout.rows * layout.fields; ++line, tiles += layout.tiles) {
     layout.first_run.push_back(static_cast<std::uint32_t>(layout.runs.size()));
@@ -51,7 +54,8 @@ void finish_layout(NodeLayout& layout) {
       const bool there = tiles[t] != no_tile;
       if (there) {
         const int first = t << layout.tile_bits;
-        if (!goes_on) layout.runs.push_back({first, first, place - first});
+        if (!goes_on)
+          layout.runs.push_back({first, first, static_cast<std::int32_t>(place - first)});
         NodeRun& run = layout.runs.back();
         const int end = std::min(layout.row_size, first + (1 << layout.tile_bits));
         place += end - run.last;
@@ -63,6 +67,10 @@ void finish_layout(NodeLayout& layout) {
   }
   layout.first_run.push_back(static_cast<std::uint32_t>(layout.runs.size()));
   layout.size = static_cast<std::size_t>(place);
+  if (place > most_nodes) {
+    throw InputError("the velocity fields of a rank have " + std::to_string(place) +
+                     " nodes, allowed are " + std::to_string(most_nodes) + ": use more ranks");
+  }
 }
 
 }  // namespace poreshock

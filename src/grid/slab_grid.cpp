@@ -18,6 +18,13 @@ void set_zero(Lanes* nodes, std::ptrdiff_t count) {
   for (std::ptrdiff_t i = 0; i < count; ++i) nodes[i] = Lanes{};
 }
 
+/// Planes of nodes that a rank sends to one neighbour: each of its outer rows keeps apart what it
+/// adds to each row of the seam.
+int seam_planes(const GridShape& shape) {
+  const int depth = shape.stencil - 1;
+  return depth * (depth + 1) / 2;
+}
+
 /// The sides that a grid rides with: planes that stop material, the low one first.
 Triple velocity_of_planes(const Scene& scene) {
   Triple velocity{};
@@ -42,18 +49,16 @@ GridShape make_grid_shape(const Scene& scene) {
   shape.cell = scene.domain.cell;
   shape.periodic = scene.domain.periodic;
   shape.velocity = velocity_of_planes(scene);
-  // PETSc counts in PetscInt, 32 bits in Debian's default build.
-  std::int64_t numbers = lane_count;
+  std::int64_t nodes = 1;
   for (int axis = 0; axis < scene.dimension; ++axis) {
     shape.nodes[axis] = scene.domain.cells[axis] + 3;
-    numbers *= shape.nodes[axis];
+    nodes *= shape.nodes[axis];
   }
-  if (numbers > std::numeric_limits<PetscInt>::max()) {
-    throw InputError("the grid has " + std::to_string(numbers / lane_count) +
-                     " nodes, allowed are " +
-                     std::to_string(std::numeric_limits<PetscInt>::max() / lane_count) +
-                     " with this PETSc: use larger cells, or build with a PETSc of 64-bit indices "
-                     "(libpetsc64-real-dev)");
+  // The slab of a rank may be nearly all of the grid, where most rows sleep.
+  if (nodes > most_nodes) {
+    throw InputError("the grid has " + std::to_string(nodes) + " nodes, allowed are " +
+                     std::to_string(most_nodes) +
+                     ", which a rank can count in 32 bits: use larger cells");
   }
   shape.row_size = scene.dimension == 2 ? shape.nodes[0] : shape.nodes[0] * shape.nodes[1];
   shape.rows = shape.nodes[scene.dimension - 1];
@@ -65,6 +70,18 @@ GridShape moved_up(GridShape shape, int rows) {
   shape.rows += rows;
   shape.nodes[shape.dimension - 1] += rows;
   return shape;
+}
+
+void require_countable_seam(const GridShape& shape, int ranks) {
+  constexpr std::int64_t most = std::numeric_limits<PetscInt>::max();
+  const std::int64_t of_rank = std::int64_t{lane_count} * shape.row_size * seam_planes(shape) * 2;
+  if (ranks == 1 || of_rank * ranks <= most) return;
+  throw InputError("the seams between " + std::to_string(ranks) + " ranks hold " +
+                   std::to_string(of_rank * ranks) + " numbers, allowed are " +
+                   std::to_string(most) + " with this PETSc: use at most " +
+                   std::to_string(most / of_rank) +
+                   " ranks, larger cells, or build with a PETSc of 64-bit indices "
+                   "(libpetsc64-real-dev)");
 }
 
 SlabLimits slab_limits(const GridShape& shape) {
@@ -99,7 +116,7 @@ SlabGrid::SlabGrid(const GridShape& shape, std::vector<int> starts, MPI_Comm com
   has_below_ = me > 0;
   has_above_ = me + 1 < size(communicator);
   node_end_ = has_above_ ? last_ + depth : shape.rows;
-  planes_ = depth * (depth + 1) / 2;
+  planes_ = seam_planes(shape);
 }
 
 std::unique_ptr<SlabGrid> SlabGrid::sibling() const {

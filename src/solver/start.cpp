@@ -20,8 +20,8 @@ namespace {
 template <int Dim>
 Simulation<Dim> prepare(const Scene& scene, MPI_Comm communicator) {
   Simulation<Dim> sim;
-  // First of all: it refuses a grid that PETSc cannot count.
-  static_cast<void>(make_grid_shape(scene));
+  // First of all: a grid that cannot be counted is refused before the sample is made.
+  require_countable_seam(make_grid_shape(scene), size(communicator));
   sim.scene = scene;
   sim.scene_text = write_scene(scene);
   sim.communicator = communicator;

@@ -77,9 +77,9 @@ class RefusedScenes(ProgramTest):
         self.assertTrue(self.message_of(text).startswith("The scene makes no particle at all:"))
 
     def test_grid_that_petsc_cannot_count(self):
-        """2^28 nodes of 8 numbers are the limit of Debian's PETSc; said before the sample is made."""
-        self.refuse_text("the grid has 9600020400009 nodes, allowed are 268435455 with this PETSc: use larger cells, or build "
-                         "with a PETSc of 64-bit indices (libpetsc64-real-dev)", POROUS, "--set",
+        """A rank counts its nodes in 32 bits; said before the sample is made."""
+        self.refuse_text("the grid has 9600020400009 nodes, allowed are 2147483647, which a rank can count in 32 bits: use "
+                         "larger cells", POROUS, "--set",
                          "domain.size=[20, 48]", "--set", "sample.height=48", ranks=2)
 
     def test_too_many_ranks(self):

@@ -3,6 +3,7 @@
 
 #include "grid/partitions.hpp"
 #include "grid/rows.hpp"
+#include "poreshock/core/error.hpp"
 #include "poreshock/core/parallel.hpp"
 
 namespace poreshock {
@@ -38,6 +39,30 @@ TEST(GridShape, FollowsFromTheScene) {
   EXPECT_EQ(plane.rows, 8);
   EXPECT_EQ(plane.nodes[2], 1);
   EXPECT_EQ(plane.stencil, 4);
+}
+
+TEST(GridShape, IsRefusedWhereItsNodesCannotBeCounted) {
+  Scene scene;
+  scene.dimension = 3;
+  scene.domain.cell = 1.0;
+  scene.domain.cells = {1021, 1021, 2043};
+  EXPECT_EQ(make_grid_shape(scene).row_size, 1024 * 1024);
+  scene.domain.cells[2] = 2045;
+  EXPECT_THROW(make_grid_shape(scene), InputError);
+}
+
+// Cubic: six planes to each neighbour, eight numbers a node.
+TEST(GridShape, IsRefusedWhereItsSeamsCannotBeCounted) {
+  GridShape shape;
+  shape.row_size = 398 * 398;
+  EXPECT_NO_THROW(require_countable_seam(shape, 141));
+  if (sizeof(PetscInt) == 4) {
+    EXPECT_THROW(require_countable_seam(shape, 142), InputError);
+  } else {
+    EXPECT_NO_THROW(require_countable_seam(shape, 1000));
+  }
+  shape.row_size = 1 << 30;
+  EXPECT_NO_THROW(require_countable_seam(shape, 1));
 }
 
 // Rows keep their numbers where a grid moves up, and so do sums.

@@ -34,6 +34,9 @@ struct NodeLayout {
   std::size_t size = 0;                  ///< nodes
 };
 
+/// Most nodes of a rank.
+inline constexpr std::int64_t most_nodes = std::numeric_limits<std::int32_t>::max();
+
 /// The shift of a tile that a field does not have.
 inline constexpr std::int32_t no_tile = std::numeric_limits<std::int32_t>::min();
 
@@ -49,6 +52,7 @@ void begin_layout(int fields, NodeLayout& layout);
 /// Gives a field the nodes first ... last - 1 of a row, and with them all of their tiles.
 void mark_nodes(int field, int row, int first, int last, NodeLayout& layout);
 
+/// Throws InputError where there are more than most_nodes.
 void finish_layout(NodeLayout& layout);
 
 /// Number of a row and field.

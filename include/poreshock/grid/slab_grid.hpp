@@ -37,8 +37,11 @@ struct GridShape {
 };
 
 /// The grid of a scene. It rides with walls, so that they stay on a line of nodes. Throws
-/// InputError where PETSc cannot count its nodes.
+/// InputError where a rank could not count its nodes.
 GridShape make_grid_shape(const Scene& scene);
+
+/// Throws InputError where PETSc cannot count what the seams between so many ranks hold.
+void require_countable_seam(const GridShape& shape, int ranks);
 
 /// The same grid so many rows higher: its planes and the ends of its domain come along.
 GridShape moved_up(GridShape shape, int rows);
