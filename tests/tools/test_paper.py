@@ -108,6 +108,7 @@ class Claims(unittest.TestCase):
     def test_what_a_share_of_the_sample_exceeds(self):
         self.assertEqual(measures.exceeded(made_up(PAPER), 0.31), 200.0)
         self.assertAlmostEqual(measures.exceeded(made_up(PAPER), 0.19), 225.0)
+        self.assertEqual(measures.exceeded(made_up(PAPER), 0.05), numpy.inf)
 
     def test_best_matches_within_their_uncertainty(self):
         nan = numpy.nan

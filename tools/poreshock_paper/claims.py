@@ -189,9 +189,11 @@ def power_law(series, fits, reading, why):
 def heat_by_porosity(rows):
     """Why levels of Figure 8 fall or grow at own times; rows of (void fraction, end of loading, rises by share exceeded)."""
     first, last = rows[0], rows[-1]
+    cooler = first[2][0.75] > last[2][0.75]
     return (f"Three quarters of the sample exceed {first[2][0.75]:.0f} K at {first[0]:g} and {last[2][0.75]:.0f} K at {last[0]:g}, a "
-            f"tenth {first[2][0.1]:.0f} K and {last[2][0.1]:.0f} K (table below). Where there are more voids, compression heats less and "
-            "their collapse more; a level follows what heats the material that passes it.")
+            f"quarter {first[2][0.25]:.0f} K and {last[2][0.25]:.0f} K (table below). Where there are more voids, "
+            + ("compression heats less and their collapse more" if cooler else "compression heats little more and their collapse much more")
+            + "; a level follows what heats the material that passes it.")
 
 
 def loaded_by_porosity(rows):

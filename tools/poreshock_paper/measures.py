@@ -97,7 +97,9 @@ def straight_line(x, y):
 
 
 def exceeded(found, share):
-    """Rise (K) that this share of the material exceeds at the end of loading."""
+    """Rise (K) that this share of the material exceeds at the end of loading; infinite beyond what was measured."""
+    if found.arrays["A"][found.end][-1] > share:
+        return numpy.inf
     return float(numpy.interp(-share, -found.arrays["A"][found.end], found.rise))
 
 

@@ -164,14 +164,16 @@ SHARES = (0.9, 0.75, 0.5, 0.25, 0.1)
 
 def heat_by_porosity(page, results, thermal):
     """Table of what is exceeded at the end of loading; returns rows of (void fraction, end of loading, rises by share)."""
-    rows = []
+    rows, most = [], {}
     for porosity in plan.FIGURE_8:
         samples = [results.curves(plan.case(results.study, porosity, plan.REFERENCE, seed, thermal)) for seed in results.study.seeds]
+        most[porosity] = samples[0].rise[-1]
         rows.append((porosity, numpy.mean([one.time[one.end] for one in samples]),
                      {share: numpy.mean([measures.exceeded(one, share) for one in samples]) for share in SHARES}))
     page.text("What a share of the sample exceeds at the end of loading, in K above the start, mean of the samples:")
     page.markdown(("void fraction", "end of loading, ns", *(f"{100 * share:g} %" for share in SHARES)),
-                  [(f"{porosity:g}", f"{1e9 * end:.0f}", *(f"{rise:.0f}" for rise in rises.values())) for porosity, end, rises in rows])
+                  [(f"{porosity:g}", f"{1e9 * end:.0f}", *(f"{rise:.0f}" if numpy.isfinite(rise) else f"> {most[porosity]:.0f}" for rise in rises.values()))
+                   for porosity, end, rises in rows])
     return rows
 
 
