@@ -189,7 +189,8 @@ class BadRank(FaultTest):
         said = self.change_a_mass("nan", float("nan"))
         # A particle asleep shows in the balance of energy only.
         self.assertRegex(said, "particles have a state that is not finite|the energy is .* J/m, it was")
-        if any((self.folder / "nan").glob("checkpoint_*")):
+        # A checkpoint before that record may hold it; a restart refuses such a one by name.
+        if "not finite" in said and any((self.folder / "nan").glob("checkpoint_*")):
             self.assert_continues("nan")
         tell("NaN", "NaN written into the memory of one of 3 ranks, the mass of one particle", said)
 
