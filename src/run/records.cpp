@@ -10,6 +10,7 @@
 #include "poreshock/output/snapshot.hpp"
 #include "poreshock/output/xdmf.hpp"
 #include "poreshock/run/profiles.hpp"
+#include "poreshock/solver/check_state.hpp"
 #include "poreshock/solver/start.hpp"
 
 namespace poreshock {
@@ -218,6 +219,11 @@ template <int Dim>
 std::string checkpoint_now(Simulation<Dim>& sim, Recorder<Dim>& recorder) {
   const Phase phase(sim.phases, PhaseName::checkpoint);
   const std::string name = checkpoint_name(sim.clock.step);
+  if (const std::string found = unsound_particles(sim); !found.empty()) {
+    throw StateError("at step " + std::to_string(sim.clock.step) +
+                     " no checkpoint can be made of " + found +
+                     ": look at failed.h5, restart from the newest checkpoint");
+  }
   write_probe_rows(recorder.probes, recorder.backlog, sim.communicator);
   // A run that goes on from here writes later records only: the earlier ones come first.
   if (!catch_up(recorder.backlog, sim.communicator)) {

@@ -55,8 +55,7 @@ bool sound_clock(const RunState& state) {
 }  // namespace
 
 template <int Dim>
-void require_sound_state(const std::string& path, const Simulation<Dim>& sim,
-                         const ParticleOptions& expected, const RunState& state) {
+std::string unsound_particles(const Simulation<Dim>& sim) {
   const Unsound mine = count_unsound(sim);
   std::vector<std::int64_t> counts = {mine.numbers, mine.places, mine.masses, mine.materials};
   sum(counts, sim.communicator);
@@ -69,6 +68,13 @@ void require_sound_state(const std::string& path, const Simulation<Dim>& sim,
   add(counts[1], "particles outside the domain");
   add(counts[2], "particles without mass or density");
   add(counts[3], "particles of a material that the scene does not have");
+  return found;
+}
+
+template <int Dim>
+void require_sound_state(const std::string& path, const Simulation<Dim>& sim,
+                         const ParticleOptions& expected, const RunState& state) {
+  std::string found = unsound_particles(sim);
   if (!sound_clock(state)) found += found.empty() ? "a clock before zero" : ", a clock before zero";
   if (expected != sim.particles.options) {
     found += std::string(found.empty() ? "" : ", ") + "columns that do not fit the scene";
@@ -78,6 +84,8 @@ void require_sound_state(const std::string& path, const Simulation<Dim>& sim,
                    "; restart from another checkpoint");
 }
 
+template std::string unsound_particles<2>(const Simulation<2>&);
+template std::string unsound_particles<3>(const Simulation<3>&);
 template void require_sound_state<2>(const std::string&, const Simulation<2>&,
                                      const ParticleOptions&, const RunState&);
 template void require_sound_state<3>(const std::string&, const Simulation<3>&,

@@ -171,7 +171,8 @@ class BadRank(FaultTest):
         if not os.access(f"/proc/{os.getpid()}/mem", os.W_OK):
             self.skipTest("the memory of a process cannot be written here")
         run = self.start(name, ranks=3)
-        run.wait_for(lambda: self.rows(name) > 5)
+        # Between two checkpoints: none is being written.
+        run.wait_for(lambda: self.rows(name) > 8)
         with h5py.File(self.folder / "whole/snapshot_000000.h5") as file:
             mass = float(file["particles/mass"][0])
         self.assertGreater(poison(run.rank(2), mass, factor * mass), 0)
@@ -187,10 +188,9 @@ class BadRank(FaultTest):
 
     def test_not_a_number_in_one_particle(self):
         said = self.change_a_mass("nan", float("nan"))
-        # A particle asleep shows in the balance of energy only.
-        self.assertRegex(said, "particles have a state that is not finite|the energy is .* J/m, it was")
-        # A checkpoint before that record may hold it; a restart refuses such a one by name.
-        if "not finite" in said and any((self.folder / "nan").glob("checkpoint_*")):
+        # A particle asleep shows in the balance of energy only, or when a checkpoint is made.
+        self.assertRegex(said, "not finite|the energy is .* J/m, it was")
+        if any((self.folder / "nan").glob("checkpoint_*")):
             self.assert_continues("nan")
         tell("NaN", "NaN written into the memory of one of 3 ranks, the mass of one particle", said)
 
