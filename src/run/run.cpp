@@ -248,7 +248,7 @@ RunEnd run(const Scene& scene, const RunOptions& options, MPI_Comm communicator)
   if (options.continues) recorder.backlog.newest_checkpoint = options.restart;
   progress.to_go.start = {sim.clock.time, sim.clock.step, MPI_Wtime() - progress.start_wall};
   progress.to_go.row = progress.to_go.start;
-  progress.to_go.asleep = sleeping_weight(!has_contact(sim));
+  progress.to_go.asleep = sleeping_weight(sim);
   if (rank(communicator) == 0 && options.rows != ProgressRows::none) {
     std::printf("%s\n", progress_header().c_str());
   }

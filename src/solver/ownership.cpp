@@ -90,7 +90,7 @@ std::vector<double> row_seconds(const Simulation<Dim>& sim) {
     sum(contact_nodes, sim.communicator);
   }
   const RowRange awake = {sim.cells.awake.first - shape.first, sim.cells.awake.last - shape.first};
-  return predicted_row_seconds(particles, contact_nodes, awake, sleeping_weight(!has_contact(sim)),
+  return predicted_row_seconds(particles, contact_nodes, awake, sleeping_weight(sim),
                                sim.work.unit_seconds);
 }
 

@@ -84,7 +84,7 @@ template <int Dim>
 void close_step(double dt, StepReport report, Simulation<Dim>& sim) {
   move_layers(dt, sim);
   const std::int64_t asleep = sleeping_particles(sim.cells, *sim.grid);
-  const double still = sleeping_weight(sim.cells.may_rest) * static_cast<double>(asleep);
+  const double still = sleeping_weight(sim) * static_cast<double>(asleep);
   const std::int64_t all = std::ssize(sim.particles.id);
   count_work(all, static_cast<double>(all - asleep) + still, std::ssize(sim.grain_fields.shared),
              sim.work);

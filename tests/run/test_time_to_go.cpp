@@ -29,7 +29,7 @@ TEST(TimeToGo, OfThePapersFirstCase) {
       {104.3e-9, 460, 17.4, 0.901, 84910480, 69454940},
       {112.5e-9, 500, 19.5, 0.953, 92294000, 74784685},
   };
-  TimeToGo estimate;
+  TimeToGo estimate{.asleep = 0.07};
   double to_go = 0.0;
   for (const RunSoFar& row : rows) to_go = seconds_to_go(row, 1100e-9, estimate);
   EXPECT_NEAR(to_go, 579.1 - 19.5, 0.1 * (579.1 - 19.5));
@@ -57,7 +57,7 @@ RunSoFar made_up(std::int64_t steps, double seconds_per_record) {
 TEST(TimeToGo, DoesNotMistakeRecordsForSteps) {
   for (const double seconds_per_record : {0.0, 1.0, 10.0}) {
     const RunSoFar whole = made_up(4000, seconds_per_record);
-    TimeToGo estimate;
+    TimeToGo estimate{.asleep = 0.07};
     for (std::int64_t step = 50; step < 4000; step += 50) {
       const RunSoFar now = made_up(step, seconds_per_record);
       const double to_go = seconds_to_go(now, whole.time, estimate);
@@ -71,7 +71,7 @@ TEST(TimeToGo, DoesNotMistakeRecordsForSteps) {
 }
 
 TEST(TimeToGo, IsNothingBeforeTheFirstStep) {
-  TimeToGo estimate;
+  TimeToGo estimate{.asleep = 0.07};
   EXPECT_EQ(seconds_to_go({}, 1e-6, estimate), 0.0);
 }
 

@@ -21,7 +21,7 @@ struct TimeToGo {
   double cost = 0.0;         ///< s of wall time per work, of the last rows
   double first_work = 0.0;   ///< work of a step in the first row
   double first_time = -1.0;  ///< s, simulated, in the middle of it; < 0 = none yet
-  double asleep = 0.07;      ///< work of a particle asleep
+  double asleep = 0.0;       ///< work of a particle asleep, in that of one awake
 };
 
 /// How the work of a step grows, counted in awake particles; asleep ones count little.

@@ -5,12 +5,15 @@
 #include "poreshock/particles/cell_order.hpp"
 #include "poreshock/particles/particles.hpp"
 #include "poreshock/scene/scene.hpp"
+#include "poreshock/solver/simulation.hpp"
 
 namespace poreshock {
 
-/// Cost of a particle that only moves, to that of one that is computed: more where it is sorted.
-inline double sleeping_weight(bool may_rest) {
-  return may_rest ? 0.01 : 0.07;
+/// Cost of a particle that only moves, to that of one that is computed: more where it is sorted, as
+/// colours of grains come from the cells of all.
+template <int Dim>
+double sleeping_weight(const Simulation<Dim>& sim) {
+  return has_contact(sim) ? 0.07 : 0.01;
 }
 
 /// The rows of this rank that a wave has reached: those of particles whose velocity differs from
