@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "probe_table.hpp"
+
 namespace poreshock::scene_text {
 namespace {
 
@@ -26,11 +28,8 @@ void require_points(const Scene& scene, Report& report) {
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const ProbeKind kind = scene.probes[i].kind;
     if (kind == ProbeKind::point) continue;
-    const char* found = kind == ProbeKind::surface     ? "surface"
-                        : kind == ProbeKind::interface ? "interface"
-                                                       : "particle";
     add_problem("probe." + std::to_string(i) + ".kind",
-                std::string("found \"") + found +
+                "found \"" + name_in(probe_kinds(), kind) +
                     "\", allowed with time.follow = \"front\" only \"point\": the material that it "
                     "looks at may not be made yet, or handed over. Look at a point, or take a "
                     "domain of the whole sample without time.follow",

@@ -6,16 +6,19 @@
 
 namespace poreshock::scene_text {
 
+inline Names<ProbeKind> probe_kinds() {
+  return {{"surface", ProbeKind::surface},
+          {"interface", ProbeKind::interface},
+          {"particle", ProbeKind::particle},
+          {"point", ProbeKind::point}};
+}
+
 template <typename Visitor>
 void visit_probe(Visitor& visitor, Probe& probe, const Scene& scene) {
-  const Names<ProbeKind> kinds{{"surface", ProbeKind::surface},
-                               {"interface", ProbeKind::interface},
-                               {"particle", ProbeKind::particle},
-                               {"point", ProbeKind::point}};
   const Names<Facing> sides{{"up", Facing::up}, {"down", Facing::down}};
   const Names<Cadence> cadences{{"step", Cadence::step}, {"beat", Cadence::beat}};
   visitor.text("name", probe.name, {"its trace is probe_NAME.csv", Need::required});
-  choice(visitor, "kind", probe.kind, kinds,
+  choice(visitor, "kind", probe.kind, probe_kinds(),
          {"a free surface or an interface as a velocimeter sees it, the material that starts at a "
           "place, or a point of space"});
   const bool surface = probe.kind == ProbeKind::surface;

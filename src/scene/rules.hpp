@@ -45,6 +45,15 @@ inline Names<SideKind> names_of_sides() {
   return names;
 }
 
+/// The name of a value.
+template <typename Enum>
+std::string name_in(const Names<Enum>& names, Enum value) {
+  for (const auto& [text, meaning] : names) {
+    if (meaning == value) return text;
+  }
+  return "";
+}
+
 /// True when the number is finite and inside the range.
 bool in_range(const Range& range, double number);
 
@@ -84,10 +93,7 @@ void integer(Visitor& visitor, const char* key, Integer& value, NumberRule rule)
 template <typename Visitor, typename Enum>
 bool choice(Visitor& visitor, const char* key, Enum& value, const Names<Enum>& names,
             const Rule& rule) {
-  std::string name;
-  for (const auto& [text, meaning] : names) {
-    if (meaning == value) name = text;
-  }
+  std::string name = name_in(names, value);
   if (!visitor.name(key, name, texts_of(names), rule)) return false;
   for (const auto& [text, meaning] : names) {
     if (text == name) value = meaning;
