@@ -1,9 +1,8 @@
 // The strength that the free surface of a plate tells, as a velocimeter sees it.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-
 #include "poreshock/run/trace.hpp"
+#include "poreshock/scene/read_scene.hpp"
 #include "support/runs.hpp"
 
 namespace poreshock::test {
@@ -11,36 +10,14 @@ namespace {
 
 constexpr double c0 = 5350.0, density = 2700.0;
 
-/// Spall strength (Pa) that the free surface of a target tells which a flyer hits at 1100 m/s.
-double told_strength(double cell, double strength, std::vector<std::string> material) {
-  char text[512];
-  std::snprintf(text, sizeof text, R"(
-[domain]
-size = [%g, 2.4e-3]
-cell = %g
-periodic = true
-[boundary]
-low = "free"
-high = "free"
-[[body]]
-shape = "box"
-low = [0, 0.1e-3]
-high = [%g, 0.7e-3]
-velocity = [0, 1100]
-grain = 1
-[[body]]
-shape = "box"
-low = [0, 0.7e-3]
-high = [%g, 1.9e-3]
-grain = 2
-[time]
-end = 450e-9
-)",
-                4.0 * cell, cell, 4.0 * cell, 4.0 * cell);
-  material.push_back("material.0.spall=" + std::to_string(strength));
-  Simulation<2> sim =
-      start<2>(scene_of(text + std::string(aluminium_text), material), MPI_COMM_SELF);
-  const double layer = 2.0 * 4.0, last = 1.9e-3 / (0.5 * cell) - 1.0;
+/// Spall strength (Pa) that the free surface of input/plate_spall.toml tells.
+double told_strength(double cell, double strength, std::vector<std::string> changes) {
+  changes.push_back("domain.cell=" + std::to_string(1e6 * cell) + "e-6");
+  changes.push_back("material.0.spall=" + std::to_string(strength));
+  changes.push_back("time.end=450e-9");
+  const Scene scene = read_scene(PORESHOCK_SOURCE_DIR "/input/plate_spall.toml", changes);
+  Simulation<2> sim = start<2>(scene, MPI_COMM_SELF);
+  const double layer = scene.domain.size[0] / (0.5 * cell), last = 1.9e-3 / (0.5 * cell) - 1.0;
   std::vector<double> time, velocity;
   while (sim.clock.time < sim.scene.time.end) {
     advance_to(sim.clock.step + 1, 0, sim);
