@@ -1,8 +1,7 @@
 #pragma once
 // A small empty domain for bodies of whole cells, and its particles.
 
-#include "poreshock/sample/fill.hpp"
-#include "sample_scenes.hpp"
+#include "filled.hpp"
 
 namespace poreshock::testing {
 
@@ -12,12 +11,6 @@ Particles<Dim> filled(const Scene& scene, LatticeRange range, SampleReport& repo
   Particles<Dim> particles;
   fill(scene, range, communicator, particles, report);
   return particles;
-}
-
-template <int Dim>
-Particles<Dim> filled(const Scene& scene) {
-  SampleReport report;
-  return filled<Dim>(scene, {0, lattice_layers(scene)}, report);
 }
 
 inline Region box(Triple low, Triple high) {

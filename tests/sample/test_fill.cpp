@@ -41,7 +41,7 @@ TEST(Fill, ASiteAtTheVeryHeightIsOutside) {
   Scene scene = small_scene();
   scene.sample.kind = SampleKind::solid;
   scene.sample.height = 3.25;
-  EXPECT_EQ(filled<2>(scene).size(), 120U);
+  EXPECT_EQ(filled<2>(scene).particles.size(), 120U);
 }
 
 TEST(Fill, TheVoidFractionOfParticlesFollowsTheGeometry) {

@@ -57,7 +57,7 @@ TEST(Fill, ABodyFillsAGeneratedVoid) {
   plug.region = box({0.0, 0.0, 0.0}, {1e-3, 0.5e-3, 0.0});
   plug.grain = 1;
   scene.bodies = {plug};
-  const Particles<2> particles = filled<2>(scene);
+  const Particles<2> particles = filled<2>(scene).particles;
   EXPECT_EQ(std::count(particles.grain.begin(), particles.grain.end(), 1), 200 * 100);
 }
 
@@ -68,7 +68,7 @@ TEST(Fill, ADiscIsFilledToItsArea) {
   disc.region.center = {5.0, 5.0, 0.0};
   disc.region.radius = 2.0;
   scene.bodies = {disc};
-  const Particles<2> particles = filled<2>(scene);
+  const Particles<2> particles = filled<2>(scene).particles;
   double mass = 0.0;
   for (const double m : particles.mass) mass += m;
   EXPECT_NEAR(mass / 2700.0, 4.0 * std::numbers::pi, 1e-3 * 4.0 * std::numbers::pi);
@@ -80,7 +80,7 @@ TEST(Fill, APolygonIsFilledExactlyWhenItsSidesAreLatticePlanes) {
   corner.region.shape = BodyShape::polygon;
   corner.region.points = {{1, 1, 0}, {5, 1, 0}, {5, 3, 0}, {3, 3, 0}, {3, 6, 0}, {1, 6, 0}};
   scene.bodies = {corner};
-  EXPECT_EQ(filled<2>(scene).size(), 4U * (8U + 6U));
+  EXPECT_EQ(filled<2>(scene).particles.size(), 4U * (8U + 6U));
 }
 
 TEST(Fill, SpinTurnsABodyAboutItsCentroidIn2D) {
@@ -91,7 +91,7 @@ TEST(Fill, SpinTurnsABodyAboutItsCentroidIn2D) {
   body.spin = {7.0, 7.0, 3.0};  // only z counts in 2-D
   scene.bodies = {body};
   scene.loading.velocity = 100.0;
-  const Particles<2> particles = filled<2>(scene);
+  const Particles<2> particles = filled<2>(scene).particles;
   ASSERT_EQ(particles.size(), 32U);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     EXPECT_DOUBLE_EQ(particles.velocity[0][p], 10.0 - 3.0 * (particles.position[1][p] - 4.0));
@@ -113,7 +113,7 @@ TEST(Fill, SpinIsACrossProductIn3D) {
   body.spin = {1.0, 2.0, 3.0};
   scene.bodies = {body};
   scene.loading.velocity = 100.0;
-  const Particles<3> particles = filled<3>(scene);
+  const Particles<3> particles = filled<3>(scene).particles;
   ASSERT_EQ(particles.size(), 8U * 48U);
   const Triple w = body.spin;
   for (std::size_t p = 0; p < particles.size(); ++p) {
