@@ -216,13 +216,13 @@ void require_numbers(const StoredArray& array, const std::string& row) {
   const std::string allowed = "Allowed are the bytes of " + extents + " numbers of " +
                               std::to_string(array.number_size()) + " bytes after byte " +
                               std::to_string(array.data_begin) + ".";
-  const std::string why = array.inflated && !array.inflated->damage().empty()
-                              ? " (" + array.inflated->damage() + ")"
-                              : "";
+  const std::string damage = array.inflated ? array.inflated->damage() : "";
   const std::string has = array.file + ": has " + std::to_string(found) + " bytes, ";
-  if (!end.empty()) throw InputError(has + end + why + ". " + allowed);
-  if (found == wanted && why.empty()) return;
-  if (!why.empty()) throw InputError(has + array.inflated->damage() + ".");
+  if (!end.empty()) {
+    throw InputError(has + end + (damage.empty() ? "" : " (" + damage + ")") + ". " + allowed);
+  }
+  if (!damage.empty()) throw InputError(has + damage + ".");
+  if (found == wanted) return;
   const std::string more = array.inflated ? "" : std::to_string(found - wanted) + " ";
   throw InputError(has + more + "more than its numbers need. " + allowed +
                    " Its size, type or beginning is another one.");

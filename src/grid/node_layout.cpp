@@ -54,8 +54,8 @@ void finish_layout(NodeLayout& layout) {
       const bool there = tiles[t] != no_tile;
       if (there) {
         const int first = t << layout.tile_bits;
-        if (!goes_on)
-          layout.runs.push_back({first, first, static_cast<std::int32_t>(place - first)});
+        const auto shift = static_cast<std::int32_t>(place - first);
+        if (!goes_on) layout.runs.push_back({first, first, shift});
         NodeRun& run = layout.runs.back();
         const int end = std::min(layout.row_size, first + (1 << layout.tile_bits));
         place += end - run.last;
