@@ -33,7 +33,8 @@ void release_freed_memory() {
 void return_large_blocks() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 65536);
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  // Larger than the blocks of 512 KiB and a little that HDF5 takes for every file.
+  mallopt(M_MMAP_THRESHOLD, 640 << 10);
   mallopt(M_TRIM_THRESHOLD, 16 << 20);
 #endif
 }

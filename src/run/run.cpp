@@ -216,6 +216,8 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
     const bool last = at_end(limits, sim.clock);
     if (sim.clock.on_beat || last) {
       record(last, sim, recorder);
+      // Else what a record has freed lies in the heap through the steps that follow.
+      release_freed_memory();
       require_closed_ledger(sim, recorder.last_row);
     }
     checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);

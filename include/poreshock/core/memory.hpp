@@ -16,9 +16,9 @@ std::int64_t own_memory();
 /// library can. Not collective.
 void release_freed_memory();
 
-/// From now on blocks above 1 MiB go back to the system once they are freed, where the library can.
-/// SuperLU_DIST, which PETSc brings along, turns that off when it is loaded: then all come from one
-/// heap, which only grows, and what lies free between the blocks is lost. Not collective.
+/// From now on blocks above 640 KiB go back to the system once they are freed, where the library
+/// can. SuperLU_DIST, which PETSc brings along, turns that off when it is loaded: then all come
+/// from one heap, which only grows, and what lies free between the blocks is lost. Not collective.
 void return_large_blocks();
 
 }  // namespace poreshock
