@@ -1,5 +1,10 @@
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include "hdf5_handle.hpp"
+#include "poreshock/core/error.hpp"
 #include "poreshock/files/block_hash.hpp"
+#include "poreshock/files/posix_file.hpp"
 
 namespace poreshock {
 
@@ -46,6 +51,40 @@ void create_dataset(hid_t file, hid_t links, const DatasetSpec& spec) {
   for (const Attribute& attribute : spec.attributes) write_attribute(dataset.get(), attribute);
 }
 
+/// Descriptor of a file that HDF5 has opened alone.
+int descriptor_of(hid_t file) {
+  void* descriptor = nullptr;
+  check_hdf5(H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor), "find the descriptor of a file");
+  return *static_cast<int*>(descriptor);
+}
+
+/// Takes the space of all that will be written. HDF5 crashes at the end of the program once it
+/// could not write all of a file: where there is no space, what it still has to write goes to
+/// memory.
+void take_space(hid_t file, const std::string& path, const FileSize& size) {
+  const int descriptor = descriptor_of(file);
+  try {
+    allocate_space(descriptor, size.data + size.overhead, path);
+  } catch (const SystemError&) {
+    const int memory = memfd_create("unwritten", MFD_CLOEXEC);
+    if (memory >= 0) {
+      dup2(memory, descriptor);
+      close(memory);
+    }
+    throw;
+  }
+}
+
+/// Gives back the space that was taken beyond the end of the file.
+void cut_to_size(hid_t file, const std::string& path) {
+  hsize_t size = 0;
+  check_hdf5(H5Fflush(file, H5F_SCOPE_LOCAL), "write " + path);
+  check_hdf5(H5Fget_filesize(file, &size), "read the size of " + path);
+  if (ftruncate(descriptor_of(file), static_cast<off_t>(size)) != 0) {
+    throw_errno("cut to size", path, errno);
+  }
+}
+
 std::uint64_t text_bytes(const Attribute& attribute) {
   const auto* text = std::get_if<std::string>(&attribute.value);
   return 256 + attribute.name.size() + (text != nullptr ? text->size() : 0);
@@ -62,8 +101,10 @@ void create_serially(const std::string& path, const FileSpec& spec) {
   const Handle access = serial_access();
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
               "create " + path);
+  take_space(file.get(), path, estimate_size(spec));
   for (const Attribute& attribute : spec.attributes) write_attribute(file.get(), attribute);
   for (const DatasetSpec& dataset : spec.datasets) create_dataset(file.get(), links.get(), dataset);
+  cut_to_size(file.get(), path);
   file.close_now("write " + path);
 }
 

@@ -140,7 +140,6 @@ Hdf5File Hdf5File::create(const std::string& path, const FileSpec& spec, MPI_Com
     probe_space(partial, size.data + size.overhead, size.overhead);
     try {
       create_serially(partial, spec);
-      allocate_space(partial);
       if (durable == Durable::now) FileDescriptor(partial, O_RDONLY).sync();
     } catch (...) {
       unlink(partial.c_str());

@@ -121,11 +121,9 @@ void probe_space(const std::string& path, std::uint64_t size, std::uint64_t rese
   throw_errno("make a file of " + std::to_string(size) + " bytes at", path, error);
 }
 
-void allocate_space(const std::string& path) {
+void allocate_space(int descriptor, std::uint64_t size, const std::string& path) {
   const IgnoreFileSizeSignal guard;
-  const FileDescriptor file(path, O_RDWR);
-  const std::uint64_t size = file.size();
-  const int error = allocate(file.get(), size);
+  const int error = allocate(descriptor, size);
   if (error != 0) throw_errno("take " + std::to_string(size) + " bytes for", path, error);
 }
 

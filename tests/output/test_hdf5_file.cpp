@@ -1,9 +1,12 @@
 // The shared file: what is written is read, on any distribution; failures reach every rank.
+#include <fcntl.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 
 #include <numeric>
 
+#include "files/hdf5_handle.hpp"
 #include "output/support.hpp"
 #include "poreshock/files/block_hash.hpp"
 #include "poreshock/files/hdf5_file.hpp"
@@ -251,6 +254,35 @@ TEST(DiskFull, FileSizeLimitIsAnErrorAndNotASignal) {
   if (rank(world) == 0) setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_TRUE(contains(text, "file size limit")) << text;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+/// Takes all of a disk but some bytes, in whole pages. Serial.
+void fill_disk(const std::string& folder, std::uint64_t but) {
+  const FileDescriptor fill(folder + "/fill", O_RDWR | O_CREAT | O_TRUNC);
+  struct statvfs disk {};
+  ASSERT_EQ(statvfs(folder.c_str(), &disk), 0);
+  ASSERT_EQ(posix_fallocate(fill.get(), 0, static_cast<off_t>(disk.f_bavail * disk.f_bsize - but)),
+            0);
+}
+
+TEST(DiskFull, AFileThatCannotBeWrittenIsClosedForGood) {
+  const TemporaryFolder folder;
+  const SmallDisk disk(folder / "disk");
+  if (disk.error() != 0) GTEST_SKIP() << "cannot mount a tmpfs: " << std::strerror(disk.error());
+  if (rank(world) != 0) return;
+  quiet_hdf5();
+  const std::string path = folder / "disk/cut.h5";
+  create_serially(path, small_spec(10));
+  const std::uint64_t whole = std::filesystem::file_size(path);
+  // Wherever the room ends: in the first block, between the tables, in the last one.
+  for (std::uint64_t room = 0; room + 4096 < whole; room += 4096) {
+    std::filesystem::remove(path);
+    fill_disk(folder / "disk", room);
+    const std::string text = thrown<SystemError>([&] { create_serially(path, small_spec(10)); });
+    EXPECT_TRUE(contains(text, path) && contains(text, "o space left")) << room << ": " << text;
+    // What is still open here would be taken down again at the end of the program.
+    EXPECT_EQ(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0) << room;
+  }
 }
 
 }  // namespace

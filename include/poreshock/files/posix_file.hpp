@@ -47,9 +47,9 @@ std::string partial_name(const std::string& path);
 /// bytes now. Removes it again when not.
 void probe_space(const std::string& path, std::uint64_t size, std::uint64_t reserve);
 
-/// Takes the disk space for the whole of an existing file, so that later writes into it cannot
-/// fail.
-void allocate_space(const std::string& path);
+/// Takes the disk space for the first `size` bytes of an open file, `path` in messages, so that
+/// later writes into them cannot fail.
+void allocate_space(int descriptor, std::uint64_t size, const std::string& path);
 
 /// Renames a file, replacing what was there.
 void rename_file(const std::string& from, const std::string& to);
