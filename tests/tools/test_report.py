@@ -116,6 +116,20 @@ class Report(unittest.TestCase):
         self.assertIn("the quantiles ", morphology_figures.unresolved(self.folder, 300.0))
         self.assertEqual(morphology_figures.against_time(self.folder, 300.0).axes[0].get_legend().get_title().get_text(), title)
 
+    def test_a_run_that_follows_the_front_says_that_its_morphology_is_that_of_the_window(self):
+        write_output(self.folder)
+        sections = page.morphology_sections(self.folder, 300.0, False)
+        self.assertNotIn("window", re.sub(r'base64,[^"]*', "", "".join(sections)))
+        with (self.folder / "scene.toml").open("a") as file:
+            file.write('[time]\nfollow = "front"\n')
+        text = re.sub(r'base64,[^"]*', "", page.write(self.folder).read_text())
+        for title in ("Figure 2: morphology against time", "Figure 3: the A-L-chi space", "Hot spots"):
+            section = text[text.index(f"<h2>{title}</h2>"):].partition("</section>")[0]
+            self.assertIn("Only material in the window that follows the front counts", section)
+        for draw in (morphology_figures.against_time, morphology_figures.space):
+            self.assertEqual([draw(self.folder, 300.0, follows).axes[0].get_title() for follows in (True, False)],
+                             [morphology_figures.IN_WINDOW, ""])
+
     def test_narrow_samples_are_stretched_and_wide_ones_are_not(self):
         for width, height in ((1e-3, 5e-3), (0.5e-3, 2.5e-3), (1e-3, 1e-3), (5e-3, 1e-3)):
             wide, high, to_scale = figures.panel_size(width, height)

@@ -4,7 +4,7 @@ import numpy
 from . import folder as reader
 from .style import COLOURS, plt
 
-LEDGER = ("total", "kinetic", "internal", "escaped", "wall_work", "body_work")
+LEDGER = ("total", "kinetic", "internal", "escaped", "handed_over", "taken_in", "wall_work", "body_work")
 SPLITS = ("elastic", *reader.HEATS, "conduction")
 
 

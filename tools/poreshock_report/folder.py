@@ -23,6 +23,11 @@ def read_scene(folder):
         raise Missing(f"scene.toml cannot be read: {error}") from None
 
 
+def follows_front(scene):
+    """Whether the domain of a run is a window that follows the front."""
+    return scene.get("time", {}).get("follow") == "front"
+
+
 def read_timings(folder):
     """timings.json; `phases` becomes a list of (name, min, avg, max, calls), numbers that are null NaN."""
     path = folder / "timings.json"

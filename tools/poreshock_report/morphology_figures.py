@@ -9,6 +9,7 @@ RISES = (50.0, 100.0, 150.0, 200.0, 250.0)  # K above the initial temperature, a
 LABELS = {"A": "area $A$ [-]", "volume": "volume $V$ [-]", "L": "boundary length $L$ [-]", "S": "surface area $S$ [-]",
           "M": "integral of the\nmean curvature $M$ [-]", "chi": "Euler characteristic\n" + r"$\chi$ [-]",
           "chi_paper": "hot less cold domains\n" + r"$\chi$ [-]"}
+IN_WINDOW = "in the window that follows the front"  # a picture that is shown alone says it too
 
 
 def functionals(folder):
@@ -35,8 +36,9 @@ def shown_thresholds(folder, threshold, start):
     return [(i, f"{threshold[i]:.4g}") for i in indices], "share of colder material"
 
 
-def against_time(folder, start):
-    """The functionals of the hot region against time (Figure 2 of the paper), three in 2-D and four in 3-D."""
+def against_time(folder, start, follows=False):
+    """The functionals of the hot region against time (Figure 2 of the paper), three in 2-D and four in 3-D; of a run that follows
+    the front they are those of its window."""
     time, threshold, arrays = functionals(folder)
     shown, title = shown_thresholds(folder, threshold, start)
     figure, axes = plt.subplots(len(arrays), 1, sharex=True, figsize=(7.0, 2.8 * len(arrays)), layout="constrained")
@@ -45,12 +47,12 @@ def against_time(folder, start):
             axis.plot(1e9 * time, values[:, i], label=rise, **line)
         axis.set_ylabel(LABELS[name])
     axes[0].legend(title=title, ncols=3, loc="upper left")
-    axes[0].set_ylim(-0.02, 1.05)
+    axes[0].set(ylim=(-0.02, 1.05), title=IN_WINDOW if follows else "")
     axes[-1].set_xlabel("time [ns]")
     return figure
 
 
-def space(folder, start):
+def space(folder, start, follows=False):
     """The same curves in the space of area, boundary and Euler characteristic (Figure 3 of the paper)."""
     _, threshold, arrays = functionals(folder)
     names = [name for name in arrays if name != "M"]
@@ -67,6 +69,7 @@ def space(folder, start):
     axis.locator_params(nbins=5)
     axis.view_init(elev=22, azim=-58)
     axis.set_box_aspect(None, zoom=0.82)
+    axis.set_title(IN_WINDOW if follows else "")
     axis.legend(title=title, loc="upper left")
     return figure
 

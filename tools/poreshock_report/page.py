@@ -102,16 +102,18 @@ def volume_sections(folder, scene, heights):
                     lambda: volume_figures.hot_surface(folder))]
 
 
-def morphology_sections(folder, start):
-    """Sections with what was measured of the hot regions."""
+def morphology_sections(folder, start, follows):
+    """Sections with what was measured of the hot regions; `follows` where the domain follows the front."""
+    window = (" Only material in the window that follows the front counts; strips.h5 has the curves of each strip that it left "
+              "behind, at the time when it was left." if follows else "")
     return [picture(folder, "morphology_time", "Figure 2: morphology against time", "Functionals of the region hotter than the "
                     "threshold, per material pixel, in 3-D per voxel. Where domains are counted, chi is the paper's: hot less cold domains; the "
-                    "chi of the pixels counts every void as a hole in the hot region.",
-                    lambda: morphology_figures.against_time(folder, start)),
+                    "chi of the pixels counts every void as a hole in the hot region." + window,
+                    lambda: morphology_figures.against_time(folder, start, follows)),
             picture(folder, "morphology_space", "Figure 3: the A-L-chi space", "The curves of Figure 2 without "
-                    "the time; every record is a dot.", lambda: morphology_figures.space(folder, start)),
+                    "the time; every record is a dot." + window, lambda: morphology_figures.space(folder, start, follows)),
             picture(folder, "hot_spots", "Hot spots", "Left: how many hot domains are at least as large. Right: size and peak of "
-                    "each, at the record with the most of them.", lambda: morphology_figures.hot_spots(folder, start))]
+                    "each, at the record with the most of them." + window, lambda: morphology_figures.hot_spots(folder, start))]
 
 
 def profile_sections(folder):
@@ -151,7 +153,7 @@ def write(folder, heights=()):
         summary.head(folder, scene, start, movie),
         *temperature_sections(folder, drawn),
         *volume_sections(folder, scene, heights),
-        *morphology_sections(folder, start),
+        *morphology_sections(folder, start, reader.follows_front(scene)),
         *profile_sections(folder),
         *probes.sections(folder),
         *grain_sections(folder),

@@ -91,7 +91,7 @@ def setting_of(scene):
                        sample.get("height", size[-1]),
                        2.0 * sample.get("void_radius", 0.0) if voids else 0.0,
                        sample.get("porosity", 0.0) if voids else 0.0, str(scene.get("thermal")),
-                       low.get("velocity", 0.0), scene.get("time", {}).get("follow") == "front",
+                       low.get("velocity", 0.0), reader.follows_front(scene),
                        chosen.get("strength", "linear") == "linear")
     except (KeyError, ValueError) as error:
         raise reader.Missing(f"scene.toml does not describe the shock: {error}") from None
