@@ -7,6 +7,10 @@ namespace poreshock {
 
 namespace {
 
+/// Share of its volume that a material opens before it fails. At a tenth the pull-back of a surface
+/// that a flyer of 1100 m/s drives tells 3 % too little of 2 GPa.
+constexpr double opened_share = 0.15;
+
 /// Linear hardening as a flow stress, which can then fall with the molten share.
 FlowStress linear_flow(const MaterialParameters& p) {
   FlowStress law;
@@ -39,7 +43,8 @@ Material make_material(const MaterialParameters& p) {
   m.conductivity = p.conductivity;
   if (p.spall > 0.0) {
     m.spall = p.spall;
-    m.opened_tension = p.spall + 0.1 * m.eos.bulk;  // a tenth of the volume has opened
+    m.spall_time = p.spall_time;
+    m.opened_tension = p.spall + opened_share * m.eos.bulk;
   }
   return m;
 }

@@ -81,6 +81,7 @@ template <int Dim, Yielding How, bool Spall, bool Conserving>
   m.strength = material.strength;
   m.plastic_heat = material.plastic_heat;
   m.spall = material.spall;
+  m.spall_time = material.spall_time;
   m.opened_tension = material.opened_tension;
   const double lone = lone_rate<Dim>(settings, m);
 #pragma GCC ivdep

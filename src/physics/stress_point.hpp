@@ -154,15 +154,20 @@ inline TrialStress<Dim> trial_stress(const DeformationIncrement<Dim>& increment,
   return t;
 }
 
+/// Cells that sound crosses while a particle opens at its strength, where the material has no time
+/// of its own: a front spans some cells, and what failed at once would take back the tension before
+/// its peak has passed.
+constexpr double held_cells = 32.0;
+
 /// The new entry of a column `failed`: 1 where a particle fails, else how long it has opened at its
-/// strength, as -1000 times the cells that sound crosses in that time. It fails when a tenth of its
-/// volume has opened, or sound has crossed 32 cells: a front spans some cells, and what failed at
-/// once would take back the tension before its peak has passed.
+/// strength, in millionths of the time for which it does, negative.
 inline std::int32_t held_tension(const Material& m, double cell, double dt, double pressure,
                                  std::int32_t before) {
-  constexpr std::int32_t longest = -32000;
-  const double crossed = 1000.0 * dt * std::sqrt(m.eos.bulk / m.eos.density) * (1.0 / cell);
-  const std::int32_t held = pressure < -m.spall ? before - static_cast<std::int32_t>(crossed) : 0;
+  constexpr std::int32_t longest = -1000000;
+  const double crossing = held_cells * cell / std::sqrt(m.eos.bulk / m.eos.density);
+  const double share = dt / (m.spall_time > 0.0 ? m.spall_time : crossing);
+  const auto part = static_cast<std::int32_t>(1e6 * (share < 1.0 ? share : 1.0));
+  const std::int32_t held = pressure < -m.spall ? before - part : 0;
   const bool fails = before > 0 || held <= longest || pressure < -m.opened_tension;
   return fails ? 1 : held;
 }

@@ -112,6 +112,9 @@ void visit_material(Visitor& visitor, MaterialParameters& material) {
                  {not_negative, "W/(m K)", "of heat; used with heat conduction only"});
   visitor.number("T0", material.T0, {positive, "K", "initial temperature"});
   visitor.number("spall", material.spall, {not_negative, "Pa", "tension it opens at; 0 = never"});
+  visitor.number(
+      "spall_time", material.spall_time,
+      {not_negative, "s", "for which it opens before it fails; 0 = while sound crosses 32 cells"});
   visit_melting(visitor, material, known);
 }
 

@@ -127,7 +127,7 @@ TEST(Messages, MaterialsOfTheLibrary) {
       problems(with_material("name = \"pmma\"\nrate = 0.1\n")),
       "s.toml:6:1: material.0.rate: unknown key, allowed name, model, density, young, poisson, "
       "strength, yield, hardening, kinematic_share, plastic_heat, c0, lambda, gamma, cv, "
-      "conductivity, T0, spall, melting");
+      "conductivity, T0, spall, spall_time, melting");
 }
 
 TEST(Messages, StrengthModels) {

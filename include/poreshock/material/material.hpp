@@ -45,6 +45,7 @@ struct MaterialParameters {
   double conductivity = 0.0;  ///< W/(m K)
   double T0 = 300.0;          ///< K
   double spall = 0.0;         ///< Pa, tension at which the material opens; 0 = never
+  double spall_time = 0.0;    ///< s, for which it opens before it fails; 0 = by the cells
   MeltingLaw melting = MeltingLaw::none;
   MeltParameters melt;
 
@@ -68,7 +69,9 @@ struct Material {
   PlasticHeat plastic_heat = PlasticHeat::work;
   double conductivity = 0.0;                               ///< W/(m K)
   double spall = std::numeric_limits<double>::infinity();  ///< Pa, infinite where it cannot fail
-  double opened_tension = std::numeric_limits<double>::infinity();  ///< Pa, at which it fails
+  double spall_time = 0.0;  ///< s, for which it opens before it fails; 0 = by the cells
+  /// Pa, of the solid at the volume at which it fails: a share of it has opened by then.
+  double opened_tension = std::numeric_limits<double>::infinity();
 
   /// Energy per mass stored in the deviator, s:s/(4 G rho), J/kg; zero for a fluid.
   double deviatoric_energy(double deviator_square, double density) const {

@@ -46,8 +46,8 @@ double lone_rate(const StressSettings<Dim>& settings, const Material& material);
 /// data is for places[k]. The report is added to (numerics: incremental polar decomposition, radial
 /// return, energy from the grid's stress power with the stress of the start of the step, so that
 /// the sum of kinetic and internal energy closes). A particle opens at its spall strength, and
-/// fails for good when it has opened by a tenth of its volume or so: from then on it bears neither
-/// tension nor shear. Not collective.
+/// fails for good when it has opened for the time of its material, or by a share of its volume:
+/// from then on it bears neither tension nor shear. Not collective.
 template <int Dim>
 void update_stress(const std::vector<Material>& materials, const StressSettings<Dim>& settings,
                    const StepData<Dim>& step, double dt, std::span<const std::uint32_t> places,
