@@ -21,9 +21,11 @@ void require_target(const Probe& probe, const ProbeTarget& target) {
                    "make probe.width larger");
 }
 
-/// rho c0 of the material of a probe; NaN when it looks at several.
-double impedance(const ProbeTarget& target, const Scene& scene) {
-  if (target.material < 0) return std::numeric_limits<double>::quiet_NaN();
+/// rho c0 of the material of a free surface; NaN when it looks at several, and inside of a material
+/// or at an interface, whose fall tells no strength.
+double impedance(const Probe& probe, const ProbeTarget& target, const Scene& scene) {
+  const bool free = probe.kind == ProbeKind::surface && target.material >= 0;
+  if (!free) return std::numeric_limits<double>::quiet_NaN();
   const MaterialParameters& m = scene.materials[static_cast<std::size_t>(target.material)];
   return m.density * m.c0;
 }
@@ -106,7 +108,7 @@ void finish_probes(const std::string& folder, const Simulation<Dim>& sim,
       const TraceFigures figures =
           read_figures(column(record.trace, "time"),
                        column(record.trace, Dim == 2 ? "velocity_y" : "velocity_z"),
-                       impedance(recorder.target, sim.scene));
+                       impedance(recorder.probe, recorder.target, sim.scene));
       record.figures = figures_of(figures);
       print_figures(name, figures);
     }

@@ -54,6 +54,14 @@ class Traces(program.ProgramTest):
         self.assertGreater(found["gauge/figures/jump_off"][0], 1000.0)
         self.assertTrue(0.0 < found["gauge/figures/arrival"][0] < 20e-9)
 
+    def test_only_a_free_surface_tells_a_spall_strength(self):
+        self.run_scene(program.ROOT / "input/plate_spall.toml", "spall", "--set", "time.end=450e-9", ranks=2)
+        found = program.datasets(self.folder / "spall/probes.h5")
+        self.assertAlmostEqual(found["free_surface/figures/spall_strength"][0], 2e9, delta=0.03 * 2e9)
+        for name in ("gauge", "impact_face"):
+            self.assertGreater(found[f"{name}/figures/jump_off"][0], 500.0)
+            self.assertTrue(numpy.isnan(found[f"{name}/figures/spall_strength"][0]))
+
     def test_force_removes_old_traces(self):
         self.write("plain.toml", POROUS)
         self.run_scene("porous.toml", "forced", "--set", "time.max_steps=2")
