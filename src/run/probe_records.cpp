@@ -21,10 +21,11 @@ void require_target(const Probe& probe, const ProbeTarget& target) {
                    "make probe.width larger");
 }
 
-/// rho c0 of the material of a free surface; NaN when it looks at several, and inside of a material
-/// or at an interface, whose fall tells no strength.
+/// rho c0 of the material of a free surface; NaN when it looks at several, and inside of a
+/// material, at an interface or before a window, whose fall tells no strength.
 double impedance(const Probe& probe, const ProbeTarget& target, const Scene& scene) {
-  const bool free = probe.kind == ProbeKind::surface && target.material >= 0;
+  const auto& side = probe.faces == Facing::up ? scene.boundary.high : scene.boundary.low;
+  const bool free = probe.kind == ProbeKind::surface && target.material >= 0 && side.behind.empty();
   if (!free) return std::numeric_limits<double>::quiet_NaN();
   const MaterialParameters& m = scene.materials[static_cast<std::size_t>(target.material)];
   return m.density * m.c0;

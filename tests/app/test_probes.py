@@ -18,6 +18,35 @@ at = [0.1e-3, 0.1e-3]
 width = 30e-6
 every = "beat"
 """
+# A flyer hits a plate that lies on a window.
+WINDOW = """
+[domain]
+size = [40e-6, 2.2e-3]
+cell = 10e-6
+periodic = true
+[boundary]
+low = { kind = "free", behind = "pmma" }
+high = "free"
+[[material]]
+name = "paper_aluminium"
+[[material]]
+name = "pmma"
+[sample]
+kind = "solid"
+height = 1.2e-3
+[[body]]
+shape = "box"
+low = [0, 1.2e-3]
+high = [40e-6, 1.8e-3]
+velocity = [0, -1100]
+[time]
+end = 260e-9
+[[probe]]
+name = "window"
+at = [20e-6]
+width = 40e-6
+faces = "down"
+"""
 
 
 class Traces(program.ProgramTest):
@@ -61,6 +90,11 @@ class Traces(program.ProgramTest):
         for name in ("gauge", "impact_face"):
             self.assertGreater(found[f"{name}/figures/jump_off"][0], 500.0)
             self.assertTrue(numpy.isnan(found[f"{name}/figures/spall_strength"][0]))
+        self.write("window.toml", WINDOW)
+        self.run_scene("window.toml", "window")
+        found = program.datasets(self.folder / "window/probes.h5")
+        self.assertGreater(found["window/figures/pull_back"][0], 20.0)
+        self.assertTrue(numpy.isnan(found["window/figures/spall_strength"][0]))
 
     def test_force_removes_old_traces(self):
         self.write("plain.toml", POROUS)
