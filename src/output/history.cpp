@@ -16,7 +16,7 @@ struct EnergyColumn {
 };
 
 /// Energies in the order of the file.
-constexpr std::array<EnergyColumn, 14> energy_columns = {{
+constexpr std::array<EnergyColumn, 16> energy_columns = {{
     {"kinetic", &HistoryRow::kinetic},
     {"internal", &HistoryRow::internal},
     {"escaped", &HistoryRow::escaped},
@@ -24,9 +24,11 @@ constexpr std::array<EnergyColumn, 14> energy_columns = {{
     {"body_work", &HistoryRow::body_work},
     {"total", &HistoryRow::total},
     {"elastic", &HistoryRow::elastic},
+    {"compression_work", &HistoryRow::compression_work},
     {"plastic_work", &HistoryRow::plastic_work, Heat::physical},
     {"viscous_heat", &HistoryRow::viscous_heat, Heat::physical},
     {"filter_heat", &HistoryRow::filter_heat, Heat::numerical},
+    {"step_heat", &HistoryRow::step_heat, Heat::numerical},
     {"wall_heat", &HistoryRow::wall_heat, Heat::physical},
     {"contact_heat", &HistoryRow::contact_heat, Heat::numerical},
     {"friction_heat", &HistoryRow::friction_heat, Heat::physical},

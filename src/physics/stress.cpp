@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -13,11 +14,12 @@ namespace poreshock {
 namespace {
 
 /// Numbers of one block: particles whose state is no longer one, those that met a guard, those
-/// whose heat has no small number of quanta, the quanta of the others, and the bits of the least
-/// limit.
+/// whose energies have no small number of quanta, the quanta of the others, and the bits of the
+/// least limit.
 struct BlockSums {
   std::int64_t bad = 0, compressed = 0, slow = 0, large = 0;
-  std::uint64_t quanta = 0;  ///< two's complement; it may wrap where large > 0 and is not used then
+  /// Quanta, two's complement; they may wrap where large > 0 and are not used then.
+  std::uint64_t viscous = 0, compression = 0, unstored = 0;
   std::int64_t least = std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
 };
 
@@ -29,6 +31,12 @@ struct BlockSums {
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double guard = m.eos.guard;
   BlockSums s;
+  const auto add = [&](double energy, std::uint64_t& quanta) {
+    const double scaled = energy * inverse_quantum;
+    s.large += (scaled < 0x1p51) & (scaled > -0x1p51) ? 0 : 1;
+    quanta +=
+        std::bit_cast<std::uint64_t>(scaled + rounder) - std::bit_cast<std::uint64_t>(rounder);
+  };
   for (std::size_t k = 0; k < count; ++k) {
     // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
     // jump over a whole slab.
@@ -41,10 +49,9 @@ struct BlockSums {
     // Bits of positive numbers are in their order.
     const std::int64_t limit = std::bit_cast<std::int64_t>(r.limit[k]);
     s.least = good & (limit < s.least) ? limit : s.least;
-    const double scaled = r.viscous[k] * inverse_quantum;
-    s.large += (scaled < 0x1p51) & (scaled > -0x1p51) ? 0 : 1;
-    s.quanta +=
-        std::bit_cast<std::uint64_t>(scaled + rounder) - std::bit_cast<std::uint64_t>(rounder);
+    add(r.viscous[k], s.viscous);
+    add(r.compression[k], s.compression);
+    add(r.unstored[k], s.unstored);
   }
   return s;
 }
@@ -56,12 +63,19 @@ void reduce(const Material& m, const BlockResults& r, std::size_t count, double 
   report.compression_guard += s.compressed;
   report.sound_speed_guard += s.slow;
   report.dt_limit = std::min(report.dt_limit, std::bit_cast<double>(s.least));
+  for (std::size_t k = 0; k < count && std::isfinite(m.spall); ++k) {
+    report.failure_heat += quantise(r.released[k], inverse_quantum);
+  }
   if (s.large == 0) {
-    report.viscous_heat += static_cast<std::int64_t>(s.quanta);
+    report.viscous_heat += static_cast<std::int64_t>(s.viscous);
+    report.compression_work += static_cast<std::int64_t>(s.compression);
+    report.step_heat += static_cast<std::int64_t>(s.unstored);
     return;
   }
   for (std::size_t k = 0; k < count; ++k) {
     report.viscous_heat += quantise(r.viscous[k], inverse_quantum);
+    report.compression_work += quantise(r.compression[k], inverse_quantum);
+    report.step_heat += quantise(r.unstored[k], inverse_quantum);
   }
 }
 

@@ -26,7 +26,10 @@ constexpr double least_closing = 1.0e-6;
 /// Per-particle results of one block that are reduced afterwards, in plain loops.
 struct BlockResults {
   double limit[block_size];
-  double viscous[block_size];
+  double viscous[block_size];      ///< J, like the next three
+  double compression[block_size];  ///< work of the pressure
+  double unstored[block_size];     ///< work that the material neither stores nor dissipates
+  double released[block_size];     ///< elastic energy of a deviator that failed
   double eta[block_size];
   double sound_speed2[block_size];
   double volume_ratio[block_size];
@@ -132,6 +135,17 @@ inline ViscousStep viscous_step(const StressSettings<Dim>& settings, double lone
   return {pressure, 1.0 / (rate > strain ? rate : strain)};
 }
 
+/// Energy per mass that the deviator stores, and the back stress where it does.
+template <int Dim, bool Kinematic>
+inline double stored_energy(const Material& m, const SymmetricTensor<Dim>& deviator,
+                            const SymmetricTensor<Dim>& back_stress, double density) {
+  double stored = m.deviatoric_energy(contract<Dim>(deviator, deviator), density);
+  if constexpr (Kinematic) {
+    stored += m.back_stress_energy(contract<Dim>(back_stress, back_stress), density);
+  }
+  return stored;
+}
+
 /// How a particle yields: by linear hardening without or with a back stress, or by a flow stress
 /// whose plastic increment is known beforehand.
 enum class Yielding { isotropic, kinematic, known };
@@ -188,6 +202,15 @@ inline void release(const Material& m, bool fails, ReturnMapping<Dim>& mapped,
   }
 }
 
+template <int Dim, bool Kinematic>
+inline void store_stress(const ReturnMapping<Dim>& mapped, const ParticlePointers<Dim>& p,
+                         std::size_t i) {
+  for (int k = 0; k < symmetric_size<Dim>; ++k) {
+    p.deviator[k][i] = mapped.deviator[k];
+    if constexpr (Kinematic) p.back_stress[k][i] = mapped.back_stress[k];
+  }
+}
+
 /// One particle, load - call - store.
 template <int Dim, Yielding How, bool Spall, bool Conserving>
 inline void update_particle(const Material& m, const StressSettings<Dim>& settings, double dt,
@@ -201,6 +224,7 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
   if constexpr (kinematic) {
     for (int k = 0; k < size; ++k) alpha[k] = p.back_stress[k][i];
   }
+  const double stored_before = stored_energy<Dim, kinematic>(m, s, alpha, p.density[i]);
   const Motion<Dim> motion = load_motion<Dim>(settings, dt, c, i);
   const double start_volume = 1.0 / p.density[i];
   const double dilatation = trace<Dim>(motion.rate);
@@ -228,10 +252,8 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
   const double heat_per_volume =
       m.plastic_heat == PlasticHeat::work ? mapped.plastic_work : mapped.dissipation;
   const double plastic_work = p.plastic_work[i] + 0.5 * (start_volume + volume) * heat_per_volume;
-  double stored = m.deviatoric_energy(contract<Dim>(mapped.deviator, mapped.deviator), density);
-  if constexpr (kinematic) {
-    stored += m.back_stress_energy(contract<Dim>(mapped.back_stress, mapped.back_stress), density);
-  }
+  const double stored =
+      stored_energy<Dim, kinematic>(m, mapped.deviator, mapped.back_stress, density);
   EquationOfState eos = Conserving ? conserving_state(m.eos, density, energy - stored)
                                    : paper_state(m.eos, density, plastic_work);
   if constexpr (Spall) {
@@ -239,6 +261,7 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
     const bool fails = held > 0;
     if constexpr (Conserving) eos.pressure += fails ? m.eos.gamma * density * stored : 0.0;
     release<Dim>(m, fails, mapped, eos);
+    results.released[i] = fails ? p.mass[i] * stored : 0.0;
     p.failed[i] = held;
   }
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
@@ -247,10 +270,11 @@ inline void update_particle(const Material& m, const StressSettings<Dim>& settin
   const ActingShares shares = {c.viscous_linear[i], c.viscous_quadratic[i]};
   const ViscousStep next = viscous_step<Dim>(settings, lone, motion, shares, density, sound_speed);
 
-  for (int k = 0; k < size; ++k) p.deviator[k][i] = mapped.deviator[k];
-  if constexpr (kinematic) {
-    for (int k = 0; k < size; ++k) p.back_stress[k][i] = mapped.back_stress[k];
-  }
+  const double compression = 0.5 * (p.pressure[i] + eos.pressure) * (start_volume - volume);
+  const double kept = (stored - stored_before) + (plastic_work - p.plastic_work[i]);
+  results.compression[i] = p.mass[i] * compression;
+  results.unstored[i] = p.mass[i] * (((work - viscous) - compression) - kept);
+  store_stress<Dim, kinematic>(mapped, p, i);
   p.density[i] = density;
   p.internal_energy[i] = energy;
   p.plastic_strain[i] += mapped.plastic_strain_increment;

@@ -39,10 +39,10 @@ void show_heat(const HistoryRow& row, const Scene& scene, long long shortened) {
   const auto percent = [&](double part) { return 100.0 * part / heat; };
   std::printf(
       "heat: plastic %.1f %%, viscous %.1f %%, wall and friction %.1f %%; numerical dissipation "
-      "%.1f %% (filter %.1f, contact %.1f); modes shortened %lld times\n",
+      "%.1f %% (filter %.1f, steps %.1f, contact %.1f); modes shortened %lld times\n",
       percent(row.plastic_work), percent(row.viscous_heat),
       percent(row.wall_heat + row.friction_heat), 100.0 * numerical_share(row),
-      percent(row.filter_heat), percent(row.contact_heat), shortened);
+      percent(row.filter_heat), percent(row.step_heat), percent(row.contact_heat), shortened);
   if (numerical_share(row) <= most) return;
   std::printf(
       "warning: numerical dissipation is %.0f %% of all heat; above 15 %% the cells are too coarse "

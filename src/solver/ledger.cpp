@@ -43,6 +43,9 @@ void for_each_sum(LedgerType& l, Visitor&& visit) {
   visit(l.nodes.body_impulse, &HistoryRow::body_impulse, -1);
   visit(l.nodes.wall_impulse, &HistoryRow::wall_impulse, -1);
   visit(l.viscous_heat, &HistoryRow::viscous_heat, 0);
+  visit(l.compression_work, &HistoryRow::compression_work, 0);
+  visit(l.step_heat, &HistoryRow::step_heat, 0);
+  visit(l.failure_heat, &HistoryRow::plastic_work, 0);
   visit(l.transfer_heat, &HistoryRow::filter_heat, 0);
   visit(l.conduction, &HistoryRow::conduction, 0);
   visit(l.escaped.energy, &HistoryRow::escaped, 1);

@@ -25,6 +25,9 @@ inline void take_report(const StepReport& report, double conduction_limit, Clock
   ledger.guards.sound_speed += report.stress.sound_speed_guard;
   ledger.guards.negative_heat += report.transfer.negative;
   ledger.viscous_heat += report.stress.viscous_heat;
+  ledger.compression_work += report.stress.compression_work;
+  ledger.step_heat += report.stress.step_heat;
+  ledger.failure_heat += report.stress.failure_heat;
   ledger.transfer_heat += report.transfer.heat;
   ledger.shortened += report.transfer.shortened;
 }

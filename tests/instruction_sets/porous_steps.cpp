@@ -105,9 +105,10 @@ std::uint64_t hash_of(const PorousSample<Dim>& s) {
     }
   });
   const NodeLedger& l = s.ledger;
-  std::vector<Int128> sums = {l.wall_heat,           l.wall_work,         l.body_work,
-                              s.transfer.heat,       s.transfer.negative, s.transfer.shortened,
-                              s.report.viscous_heat, s.conduction};
+  std::vector<Int128> sums = {
+      l.wall_heat,         l.wall_work,          l.body_work,           s.transfer.heat,
+      s.transfer.negative, s.transfer.shortened, s.report.viscous_heat, s.report.compression_work,
+      s.report.step_heat,  s.conduction};
   sums.insert(sums.end(), l.body_impulse.begin(), l.body_impulse.end());
   sums.insert(sums.end(), l.wall_impulse.begin(), l.wall_impulse.end());
   for (const std::int64_t word : to_words(sums)) hash.add(static_cast<std::uint64_t>(word));

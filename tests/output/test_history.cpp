@@ -19,8 +19,9 @@ const MPI_Comm world = MPI_COMM_WORLD;
 
 const std::string plane_header =
     "time [s],step [-],dt [s],particles [-],kinetic [J/m],internal [J/m],escaped [J/m],"
-    "wall_work [J/m],body_work [J/m],total [J/m],elastic [J/m],plastic_work [J/m],"
-    "viscous_heat [J/m],filter_heat [J/m],wall_heat [J/m],contact_heat [J/m],friction_heat [J/m],"
+    "wall_work [J/m],body_work [J/m],total [J/m],elastic [J/m],compression_work [J/m],"
+    "plastic_work [J/m],viscous_heat [J/m],filter_heat [J/m],step_heat [J/m],wall_heat "
+    "[J/m],contact_heat [J/m],friction_heat [J/m],"
     "conduction [J/m],momentum_x [kg/s],momentum_y [kg/s],escaped_momentum_x [kg/s],"
     "escaped_momentum_y [kg/s],wall_impulse_x [kg/s],wall_impulse_y [kg/s],body_impulse_x [kg/s],"
     "body_impulse_y [kg/s],total_momentum_x [kg/s],total_momentum_y [kg/s],wall_force [N/m],"
@@ -59,11 +60,12 @@ TEST(History, HeaderAndNumbers) {
   EXPECT_TRUE(
       contains(solid, ",total_momentum_z [kg m/s],wall_force [N],numerical_share [-],guards [-]"))
       << solid;
-  EXPECT_EQ(history_line(sample_row(3), 2),
-            "1.0000000000000001e-09,3,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,"
-            "1,-2,0.5,0.25,-0,3,5,7,-3.5,-11.75,1000000000,0,9");
+  EXPECT_EQ(
+      history_line(sample_row(3), 2),
+      "1.0000000000000001e-09,3,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,"
+      "1,-2,0.5,0.25,-0,3,5,7,-3.5,-11.75,1000000000,0,9");
   EXPECT_EQ(history_line(sample_row(0), 3),
-            "0,0,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,1,-2,4,"
+            "0,0,1e-10,1000,0.33333333333333331,0,0,0,0,0,0,0,0,0,0,0,0,0,0,-2.5,1,-2,4,"
             "0.5,0.25,0.125,-0,3,6,5,7,11,-3.5,-11.75,-12.875,1000000000,0,9");
 }
 

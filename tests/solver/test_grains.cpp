@@ -19,6 +19,7 @@ TEST_P(GrainsCloseTheEnergy, AndKeepMomentum) {
   advance_to(150, 0, sim);
   const HistoryRow after = stock(sim);
   EXPECT_NEAR(after.total, before.total, 1e-12 * before.kinetic);
+  EXPECT_LT(std::abs(unnamed_energy(before, after)), 1e-12 * before.kinetic);
   for (std::size_t a = 0; a < 2; ++a) {
     EXPECT_NEAR(after.total_momentum[a], before.total_momentum[a],
                 1e-13 * std::abs(before.momentum[1]));

@@ -149,9 +149,10 @@ class Report(unittest.TestCase):
 
 
 class Heat(unittest.TestCase):
-    def test_numerical_share_counts_transfers_and_contacts_but_no_friction(self):
+    def test_numerical_share_counts_transfers_steps_and_contacts_but_no_friction(self):
         columns = {name: numpy.array([0.0, value]) for name, value in
-                   zip(folder.HEATS, (40.0, 30.0, 6.0, 4.0, 2.0, 18.0))}
+                   zip(("plastic_work", "viscous_heat", "filter_heat", "step_heat", "wall_heat", "contact_heat", "friction_heat"),
+                       (40.0, 30.0, 6.0, -1.0, 4.0, 3.0, 18.0))}
         numpy.testing.assert_array_equal(folder.numerical_share(columns), [numpy.nan, 0.08])
 
 

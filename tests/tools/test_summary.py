@@ -56,12 +56,13 @@ class Summary(Folders):
         with (self.folder / "history.csv").open(newline="") as file:
             rows = list(csv.reader(file))
         last = {title.split(" ")[0]: float(entry) for title, entry in zip(rows[0], rows[-2])}  # the last one is cut
-        heat = sum(last[name] for name in ("plastic_work", "viscous_heat", "filter_heat", "wall_heat", "contact_heat", "friction_heat"))
+        heat = sum(last[name] for name in ("plastic_work", "viscous_heat", "filter_heat", "step_heat", "wall_heat", "contact_heat",
+                                           "friction_heat"))
         found = self.head()
         for label, value in (("plastic work", last["plastic_work"]), ("artificial viscosity", last["viscous_heat"]),
                              ("walls and friction", last["wall_heat"]), ("velocity transfer (numerical)", last["filter_heat"])):
             self.assertIn(f"{label} {100.0 * value / heat:.1f} %", found)
-        self.assertIn(f"Numerical dissipation: {100.0 * (last['filter_heat'] + last['contact_heat']) / heat:.1f} % of all heat", found)
+        self.assertIn(f"Numerical dissipation: {100.0 * (last['filter_heat'] + last['step_heat'] + last['contact_heat']) / heat:.1f} % of all heat", found)
         self.assertIn("Numerical dissipation: 4.2 %", found)
         self.assertIn("48 000 particles, 1 000 steps, 200 ns", found)
 
@@ -94,10 +95,10 @@ class Summary(Folders):
         (self.folder / "failed.h5").touch()
         rows = (self.folder / "history.csv").read_text().splitlines()
         last = rows[-2].split(",")
-        last[9], last[13] = "1001", "400"  # total and filter heat, J/m
+        last[9], last[14] = "1001", "400"  # total and filter heat, J/m
         (self.folder / "history.csv").write_text("\n".join((*rows[:-2], ",".join(last))))
         found = " ".join(summary.warnings(self.folder, scene, 300.0))
-        for words in ("The run stands at 200 ns; time.end is 300 ns.", "Numerical dissipation is 35 % of all heat",
+        for words in ("The run stands at 200 ns; time.end is 300 ns.", "Numerical dissipation is 36 % of all heat",
                       "Set domain.cell to 5e-06 m or less.", "drifts by 1.0e-03 of itself", "The state of the run went bad"):
             self.assertIn(words, found)
 

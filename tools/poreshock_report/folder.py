@@ -84,14 +84,15 @@ def read_history(folder):
     return columns, {title[1]: title[2] or "-" for title in titles}
 
 
-HEATS = ("plastic_work", "viscous_heat", "filter_heat", "wall_heat", "contact_heat", "friction_heat")
+NUMERICAL = ("filter_heat", "step_heat", "contact_heat")
+HEATS = ("plastic_work", "viscous_heat", "wall_heat", "friction_heat", *NUMERICAL)
 
 
 def numerical_share(columns):
-    """Heat of the transfers and of impulses of grains beside walls as a share of all heat, row by row of a
-    history; NaN where there is no heat yet."""
+    """Heat of the transfers, of steps and of impulses of grains beside walls as a share of all heat, row by row
+    of a history; NaN where there is no heat yet."""
     heat = sum(columns[name] for name in HEATS)
-    numerical = columns["filter_heat"] + columns["contact_heat"]
+    numerical = sum(columns[name] for name in NUMERICAL)
     return numpy.where(heat > 0.0, numerical / numpy.where(heat > 0.0, heat, 1.0), numpy.nan)
 
 

@@ -9,6 +9,7 @@ from . import markup, morphology_figures, profiles
 SHOWN = ("Us [m/s]", "P [GPa]", "T [K]")  # rows of the Hugoniot table
 HEAT = {"plastic work": ("plastic_work",), "artificial viscosity": ("viscous_heat",),
         "walls and friction": ("wall_heat", "friction_heat"), "velocity transfer (numerical)": ("filter_heat",),
+        "steps and velocities changed between them (numerical)": ("step_heat",),
         "impulses of grains beside walls (numerical)": ("contact_heat",)}
 MOST_NUMERICAL = 0.15  # share of all heat, as in the program's own warning
 MOST_DRIFT = 1e-10

@@ -30,9 +30,11 @@ struct HistoryRow {
   double body_work = 0.0;
   double total = 0.0;
   double elastic = 0.0;
+  double compression_work = 0.0;
   double plastic_work = 0.0;
   double viscous_heat = 0.0;
   double filter_heat = 0.0;
+  double step_heat = 0.0;
   double wall_heat = 0.0;
   double contact_heat = 0.0;
   double friction_heat = 0.0;
@@ -52,11 +54,13 @@ struct HistoryRow {
   std::optional<ContactRow> contact;  ///< only in runs of several grains
 };
 
-/// All heat so far, J (J/m in plane strain): plastic, viscous, filter, wall, contact and friction.
+/// All heat so far, J (J/m in plane strain): plastic, viscous, filter, step, wall, contact and
+/// friction. With the changes of `elastic`, `compression_work` and `conduction` it makes that of
+/// `internal`, unless particles leave or come.
 double all_heat(const HistoryRow& row);
 
-/// Share of all heat that the numerics made, of the filter of the transfer and of inelastic
-/// contact; 0 without heat.
+/// Share of all heat that the numerics made, of the filter of the transfer, of steps and of
+/// inelastic contact; 0 without heat.
 double numerical_share(const HistoryRow& row);
 
 /// First line of the file, without its end of line. `grains`: with the columns of contact;

@@ -31,7 +31,13 @@ struct StressReport {
   std::int64_t bad = 0;                ///< particles with a state that is not finite or inverted
   std::int64_t compression_guard = 0;  ///< particles beyond the guard of the reference curve
   std::int64_t sound_speed_guard = 0;  ///< particles whose sound speed had to be floored
-  Int128 viscous_heat = 0;             ///< quanta
+  Int128 viscous_heat = 0;             ///< quanta, like the following
+  /// Work of the pressure: the mean of those before and after the step, times the change of volume.
+  Int128 compression_work = 0;
+  /// Work of the stress less that of the pressure, what the deviator and a back stress store, and
+  /// plastic work: the nodes give that of the stress of the start at the mean of their velocities.
+  Int128 step_heat = 0;
+  Int128 failure_heat = 0;  ///< what the deviators of particles that fail stored
 };
 
 /// What a particle without neighbours bounds the step to, as sound speeds per cell. Alone it moves

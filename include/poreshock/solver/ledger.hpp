@@ -48,7 +48,9 @@ struct Ledger {
   double energy_quantum = 1.0;    ///< J
   double momentum_quantum = 1.0;  ///< kg m/s
   NodeLedger nodes;
-  Int128 viscous_heat = 0;
+  Int128 viscous_heat = 0, compression_work = 0;
+  Int128 step_heat = 0;        ///< work that is neither stored nor dissipated by the material
+  Int128 failure_heat = 0;     ///< of deviators of particles that failed
   Int128 transfer_heat = 0;    ///< filter heat
   std::int64_t shortened = 0;  ///< particle-steps whose modes lost a tenth to it
   Int128 conduction = 0;       ///< heat gained by conduction: round-off
