@@ -77,7 +77,7 @@ inline std::span<const NodeRun> runs_of(const NodeLayout& layout, int field, int
 inline std::size_t first_place(const NodeLayout& layout, int row) {
   const std::uint32_t run = layout.first_run[line_number(layout, 0, row)];
   if (run == layout.runs.size()) return layout.size;
-  return static_cast<std::size_t>(layout.runs[run].shift + layout.runs[run].first);
+  return static_cast<std::size_t>(std::int64_t{layout.runs[run].shift} + layout.runs[run].first);
 }
 
 }  // namespace poreshock

@@ -43,7 +43,7 @@ struct Side {
   SideKind kind = SideKind::free;
   double velocity = 0.0;  ///< m/s along the shock axis, of sides that drive
   double friction = 0.0;  ///< coefficient of Coulomb friction, of sides that drive
-  std::string behind;     ///< name of the material that waves leave into, of sides that let out
+  std::string behind{};   ///< name of the material that waves leave into, of sides that let out
   bool operator==(const Side&) const = default;
 };
 
