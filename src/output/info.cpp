@@ -10,6 +10,7 @@
 #include "poreshock/files/hdf5_file.hpp"
 #include "poreshock/files/posix_file.hpp"
 #include "poreshock/output/history.hpp"
+#include "poreshock/output/probe_file.hpp"
 
 namespace poreshock {
 
@@ -75,7 +76,18 @@ bool is_history(const std::string& header, int dimension) {
   return false;
 }
 
-std::string describe_history(const std::string& path, const std::string& text) {
+/// What a file of rows with this first line is; empty where it is none of a run.
+std::string kind_of_rows(const std::string& header) {
+  for (const int dimension : {2, 3}) {
+    const std::string run = "a " + std::to_string(dimension) + "-D run";
+    if (is_history(header, dimension)) return "history of " + run;
+    if (header == probe_header(dimension)) return "trace of a probe of " + run;
+  }
+  return {};
+}
+
+std::string describe_rows(const std::string& path, const std::string& kind,
+                          const std::string& text) {
   std::istringstream in(text);
   std::string header;
   std::string line;
@@ -84,8 +96,7 @@ std::string describe_history(const std::string& path, const std::string& text) {
   std::int64_t rows = 0;
   for (; std::getline(in, line); ++rows) last = line;
   std::ostringstream out;
-  out << path << ": history of a " << (is_history(header, 2) ? "2-D" : "3-D")
-      << " run of poreshock\nrows      " << rows << "\n";
+  out << path << ": " << kind << " of poreshock\nrows      " << rows << "\n";
   if (rows > 0) {
     const std::size_t comma = last.find(',');
     out << "time      " << last.substr(0, comma) << " s (last row)\n";
@@ -102,8 +113,8 @@ std::string describe(const std::string& path) {
   const std::string name = std::filesystem::path(path).filename().string();
   if (name.ends_with(".h5")) return describe_hdf5(path);
   const std::string text = read_text(path);
-  const std::string first = text.substr(0, text.find('\n'));
-  if (is_history(first, 2) || is_history(first, 3)) return describe_history(path, text);
+  const std::string kind = kind_of_rows(text.substr(0, text.find('\n')));
+  if (!kind.empty()) return describe_rows(path, kind, text);
   if (name == "timings.json") return path + ": timings of a run of poreshock\n" + text;
   if (name.ends_with(".toml")) return path + ": scene\n" + text;
   if (name == "snapshots.xdmf" || name == "maps.xdmf") {
@@ -116,8 +127,8 @@ std::string describe(const std::string& path) {
            (name == "maps.xdmf" ? " on pixels" : "") + ", for ParaView\n";
   }
   throw InputError(path +
-                   ": not a file of poreshock; known are *.h5, history.csv, timings.json, "
-                   "snapshots.xdmf, maps.xdmf and *.toml");
+                   ": not a file of poreshock; known are *.h5, history.csv, probe_*.csv, "
+                   "timings.json, snapshots.xdmf, maps.xdmf and *.toml");
 }
 
 }  // namespace poreshock

@@ -252,7 +252,7 @@ class Commands(ProgramTest):
 
     def test_info_refuses_what_is_not_ours(self):
         self.write("notes.txt", "nothing of poreshock\n")
-        self.refuse("notes.txt: not a file of poreshock; known are *.h5, history.csv, timings.json, "
+        self.refuse("notes.txt: not a file of poreshock; known are *.h5, history.csv, probe_*.csv, timings.json, "
                     "snapshots.xdmf, maps.xdmf and *.toml", "info", "notes.txt", ranks=2)
         self.refuse("none.h5: not found", "info", "none.h5")
         self.write("fake.h5", "nothing of HDF5\n")

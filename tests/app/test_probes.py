@@ -72,6 +72,10 @@ class Traces(program.ProgramTest):
         self.assertEqual(self.trace("whole", "top").count(b"\n"), steps + 2)
         self.assertEqual(self.trace("whole", "gauge").count(b"\n"), 9 + 1)  # 20 ns in beats of 2.5 ns
 
+    def test_info_on_a_trace(self):
+        text = self.succeed("info", "whole/probe_gauge.csv").output
+        self.assertTrue(text.startswith("whole/probe_gauge.csv: trace of a probe of a 2-D run of poreshock\nrows      9\n"), text)
+
     def test_probes_h5_holds_the_traces_and_their_figures(self):
         found = program.datasets(self.folder / "whole/probes.h5")
         lines = self.trace("whole", "gauge").decode().splitlines()
