@@ -9,7 +9,8 @@ void integrate_momentum(const Vector<Dim>& body_force, double dt, SlabGrid& grid
   const Lanes* const last = grid.nodes_from(grid.node_end());
   for (Lanes* node = grid.nodes_from(grid.first_row()); node != last; ++node) {
     const Lanes sums = *node;
-    Lanes moved{};
+    // As a template argument the type of Lanes forgets that it may lie at any address.
+    alignas(sizeof(Lanes)) Lanes moved{};
     const SumNode<Dim> sum{sums};
     const MotionNode<Dim> motion{moved};
     // A mass that is no number goes on into the velocities, where the stress update finds it.
