@@ -45,6 +45,15 @@ void check_combination(const Transfer& transfer, Report& report) {
   }
 }
 
+void check_gradient(const Transfer& transfer, Report& report) {
+  const auto spreads = []<class Shape>(const Shape&) { return has_inertia<Shape>; };
+  if (transfer.gradient == Gradient::slopes || of_shape(transfer.shape, spreads)) return;
+  add_problem("transfer.gradient",
+              "found \"moments\", allowed with transfer.shape = " + shapes_with(spreads) +
+                  ": the moments of the others depend on the place in a cell",
+              report);
+}
+
 /// The largest cfl of a scheme.
 void check_step(const Scene& scene, Report& report) {
   if (!good(report, {"transfer.velocity", "time.cfl"})) return;
@@ -72,6 +81,7 @@ void check_transfer(const Scene& scene, Report& report) {
     return;
   }
   check_combination(scene.transfer, report);
+  if (good(report, {"transfer.gradient"})) check_gradient(scene.transfer, report);
   check_step(scene, report);
   check_viscosity(scene, report);
 }

@@ -29,6 +29,10 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
   visitor.fallback(transfer.velocity,
                    suits(best, transfer.shape) ? best.velocity : VelocityTransfer::flip);
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
+  const Names<Gradient> gradients{{"slopes", Gradient::slopes}, {"moments", Gradient::moments}};
+  choice(visitor, "gradient", transfer.gradient, gradients,
+         {"of the velocity, and of the stress likewise, by slopes of the shape function or by its "
+          "first moments: the latter keeps more of the speed of grains that meet"});
   visitor.fallback(transfer.damping, scheme_of(transfer.velocity).damping);
   visitor.number("damping", transfer.damping,
                  {{.low = 0.0, .high = 10.0},

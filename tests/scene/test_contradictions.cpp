@@ -122,6 +122,14 @@ TEST(Contradictions, Bodies) {
             "s.toml:22:1: void.0.velocity: unknown key, allowed shape, center, radius");
 }
 
+TEST(Contradictions, GradientsByMomentsOfAHat) {
+  EXPECT_EQ(problems(small_scene(), {"transfer.preset=lineage", "transfer.gradient=moments"}),
+            "--set transfer.gradient=moments: transfer.gradient: found \"moments\", allowed with "
+            "transfer.shape = \"quadratic\" or \"cubic\": the moments of the others depend on the "
+            "place in a cell");
+  EXPECT_EQ(problems(small_scene(), {"transfer.gradient=moments"}), "");
+}
+
 TEST(Contradictions, DampingOfWhatIsNotKept) {
   for (const std::string name : {"pic", "apic", "polypic"}) {
     const std::string velocity = "transfer.velocity=" + name;

@@ -33,9 +33,9 @@ TEST(Messages, UnknownKeyFarFromAll) {
 
 TEST(Messages, KeysOfFormerSchemes) {
   for (const std::string key : {"averaging", "order", "update"}) {
-    EXPECT_EQ(
-        problems(small_scene("[transfer]\n" + key + " = 1\n")),
-        "s.toml:19:1: transfer." + key + ": unknown key, allowed preset, shape, velocity, damping");
+    EXPECT_EQ(problems(small_scene("[transfer]\n" + key + " = 1\n")),
+              "s.toml:19:1: transfer." + key +
+                  ": unknown key, allowed preset, shape, velocity, gradient, damping");
   }
 }
 

@@ -37,6 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
                                                "boundary.low={kind='wall', friction=0.4}"},
                       std::vector<std::string>{"contact.gap=none", "viscosity.limited=false"},
                       std::vector<std::string>{"contact.normal=regression"},
+                      std::vector<std::string>{"transfer.gradient=moments"},
                       std::vector<std::string>{"transfer.velocity=flip", "transfer.damping=0.2"},
                       std::vector<std::string>{"transfer.velocity=apic"},
                       std::vector<std::string>{"transfer.velocity=aflip"},

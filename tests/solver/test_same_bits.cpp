@@ -158,6 +158,7 @@ TEST(SameBits, RestartIn3D) {
 // Grains lie across slabs, meet at walls and at periodic sides, and are coloured anew many times.
 TEST(SameBits, GrainsOnAllRanks) {
   expect_same_on_all_ranks<2>(scene_of(grains_text()), 120);
+  expect_same_on_all_ranks<2>(scene_of(grains_text(), {"transfer.gradient=moments"}), 120);
   expect_same_on_all_ranks<2>(
       scene_of(grains_text(), {"transfer.velocity=flip", "transfer.shape=quadratic",
                                "boundary.low={kind='wall', friction=0.5}"}),

@@ -105,6 +105,30 @@ TYPED_TEST(Shape, IsThatOfTheTextbook) {
   }
 }
 
+// The gradient of linear fields is exact with them, and forces sum to zero.
+TYPED_TEST(Shape, FirstMomentsMayStandForSlopes) {
+  if constexpr (has_inertia<TypeParam>) {
+    TypeParam spline;
+    spline.gradient = Gradient::moments;
+    constexpr double inertia = TypeParam::width == 3 ? 1.0 / 4.0 : 1.0 / 3.0;
+    const GridShape shape = named_shape<TypeParam>();
+    for (const double s : sample_points()) {
+      const int base = base_of<TypeParam>(s);
+      const auto w = axis_weights(spline, s, base);
+      double sum = 0.0, first = 0.0;
+      for (int i = 0; i < TypeParam::width; ++i) {
+        const double r = s - (base + i - 1);
+        EXPECT_NEAR(w.value[i], reference::spline(shape, r), 1e-15) << s;
+        EXPECT_NEAR(w.slope[i], -r * reference::spline(shape, r) / inertia, 4e-15) << s;
+        sum += w.slope[i];
+        first += w.slope[i] * w.offset[i];
+      }
+      EXPECT_NEAR(sum, 0.0, 4e-15) << s;
+      EXPECT_NEAR(first, 1.0, 4e-15) << s;
+    }
+  }
+}
+
 TYPED_TEST(Shape, SlopeIsTheDerivativeOfTheValue) {
   constexpr double h = 1e-5;
   reference::Random random{4};

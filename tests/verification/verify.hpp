@@ -69,6 +69,13 @@ inline void record(const std::string& name, const std::string& figure, double va
   EXPECT_TRUE(std::isfinite(value)) << name << ": " << figure;
 }
 
+/// A number as a scene takes it, exactly.
+inline std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
 /// Order of convergence between an error and the one at half the cell size.
 inline double order(double coarse, double fine) {
   return std::log2(coarse / fine);

@@ -34,9 +34,14 @@ struct WeightPolynomial {
   double origin, sign, constant, square, cube;
 };
 
+/// What stands for the slope of a B-spline: its derivative, or its first moment over the second, N
+/// (x_i - x)/D, which tells the gradient of linear fields exactly too (Hu et al., TOG 37 (2018)
+/// 150). Where N vanishes the derivative is large beside it, the moment is not.
+enum class Gradient { slopes, moments };
+
 /// Weights of a B-spline at f: its lanes may hold the coordinates of different axes.
 template <class Spline>
-inline AxisLanes spline_lanes(const Lanes& f) {
+inline AxisLanes spline_lanes(const Lanes& f, Gradient gradient) {
   constexpr auto& node = Spline::polynomial;
   constexpr Lanes origin = by_node([](int n) { return node[n].origin; });
   constexpr Lanes sign = by_node([](int n) { return node[n].sign; });
@@ -45,8 +50,11 @@ inline AxisLanes spline_lanes(const Lanes& f) {
   constexpr Lanes cube = by_node([](int n) { return node[n].cube; });
   constexpr Lanes place = by_node([](int n) { return static_cast<double>(n - Spline::lowest); });
   const Lanes u = fused(sign, f, origin);
-  return {fused(u * u, fused(cube, u, square), constant),
-          u * fused((3.0 * sign) * cube, u, (2.0 * sign) * square), place - f};
+  const Lanes value = fused(u * u, fused(cube, u, square), constant), offset = place - f;
+  const Lanes slope = gradient == Gradient::moments
+                          ? Spline::inverse_inertia * (value * offset)
+                          : u * fused((3.0 * sign) * cube, u, (2.0 * sign) * square);
+  return {value, slope, offset};
 }
 
 /// Weights of a hat.
@@ -124,8 +132,10 @@ struct QuadraticSpline {
   static constexpr std::array<WeightPolynomial, 4> polynomial = {
       {{1.5, -1.0, 0.0, 1.0, 0.0}, {-1.0, 1.0, 1.5, -2.0, 0.0}, {-0.5, 1.0, 0.0, 1.0, 0.0}, {}}};
 
+  Gradient gradient = Gradient::slopes;
+
   double share_beyond() const { return 1.0 / 48.0; }
-  AxisLanes lanes(double f) const { return spline_lanes<QuadraticSpline>(f - Lanes{}); }
+  AxisLanes lanes(double f) const { return spline_lanes<QuadraticSpline>(f - Lanes{}, gradient); }
 };
 
 /// Cubic B-spline.
@@ -145,8 +155,10 @@ struct CubicSpline {
                                                                   {1.0, -1.0, 4.0, -6.0, 3.0},
                                                                   {0.0, 1.0, 0.0, 0.0, 1.0}}};
 
+  Gradient gradient = Gradient::slopes;
+
   double share_beyond() const { return 1.0 / 24.0; }
-  AxisLanes lanes(double f) const { return spline_lanes<CubicSpline>(f - Lanes{}); }
+  AxisLanes lanes(double f) const { return spline_lanes<CubicSpline>(f - Lanes{}, gradient); }
 };
 
 /// All of them, in the order of their names in a message.
@@ -260,8 +272,8 @@ template <class Spline>
 requires requires {
   Spline::polynomial;
 }
-inline AxisLanes weights_of_two(const Spline&, double f, double g) {
-  return spline_lanes<Spline>(join(f - HalfLanes{}, g - HalfLanes{}));
+inline AxisLanes weights_of_two(const Spline& spline, double f, double g) {
+  return spline_lanes<Spline>(join(f - HalfLanes{}, g - HalfLanes{}), spline.gradient);
 }
 
 }  // namespace poreshock

@@ -19,7 +19,8 @@ enum class VelocityTransfer { pic, flip, apic, aflip, iapic, polypic, polyflip, 
 struct Transfer {
   ShapeFunction shape = ShapeFunction::cubic;
   VelocityTransfer velocity = VelocityTransfer::aflip;
-  double damping = 0.05;     ///< decay of the residual while sound crosses a cell
+  double damping = 0.05;  ///< decay of the residual while sound crosses a cell
+  Gradient gradient = Gradient::slopes;
   double half_length = 0.0;  ///< derived: half the edge of a particle at the start, in cells
   bool operator==(const Transfer&) const = default;
 };
@@ -84,10 +85,12 @@ inline decltype(auto) with_shape(const Transfer& transfer, Run&& run) {
   return with_shape(transfer.shape, transfer.half_length, run);
 }
 
-/// Calls run<modes, keeps>(shape function) for the transfer and the shape that the scene asks for.
+/// Calls run<modes, keeps>(shape function) for the transfer, the shape and the gradient that the
+/// scene asks for.
 template <class Run>
 inline void with_scheme(const Transfer& transfer, Run&& run) {
-  with_shape(transfer, [&]<class Spline>(const Spline& spline) {
+  with_shape(transfer, [&]<class Spline>(Spline spline) {
+    if constexpr (has_inertia<Spline>) spline.gradient = transfer.gradient;
     const auto try_one = [&]<std::size_t I>() {
       constexpr const TransferScheme& scheme = transfer_schemes[I];
       if constexpr (suits(scheme, Spline::kind)) {
