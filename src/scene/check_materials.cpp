@@ -65,6 +65,14 @@ void check_melting(const Scene& scene, std::size_t i, Report& report) {
   }
 }
 
+void check_spall(const MaterialParameters& m, std::size_t i, Report& report) {
+  if (!(m.spall_time > 0.0) || m.spall > 0.0 || has_problem(report, path_of(i, "spall"))) return;
+  add_problem(path_of(i, "spall_time"),
+              "found " + plain_number(m.spall_time) +
+                  " s, allowed only with spall > 0: else the material never opens",
+              report);
+}
+
 }  // namespace
 
 void check_materials(const Scene& scene, Report& report) {
@@ -75,6 +83,7 @@ void check_materials(const Scene& scene, Report& report) {
     check_name(scene, i, report);
     check_strength(scene.materials[i], i, report);
     check_melting(scene, i, report);
+    check_spall(scene.materials[i], i, report);
   }
 }
 

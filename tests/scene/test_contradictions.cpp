@@ -208,6 +208,13 @@ TEST(Contradictions, Beat) {
   EXPECT_EQ(problems(small_scene(), {"output.beat=1e-9", "output.snapshot=7e-9"}), "");
 }
 
+TEST(Contradictions, SpallTime) {
+  EXPECT_EQ(override_problems("material.0.spall_time=4e-8"),
+            "--set material.0.spall_time=4e-8: material.0.spall_time: found 4e-08 s, allowed only "
+            "with spall > 0: else the material never opens");
+  EXPECT_EQ(problems(small_scene(), {"material.0.spall_time=4e-8", "material.0.spall=1e9"}), "");
+}
+
 TEST(Contradictions, OutputFields) {
   // A dataset of physics that the scene does not ask for.
   EXPECT_NE(override_problems("output.fields=[\"id\", \"failed\"]")
