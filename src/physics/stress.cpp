@@ -23,37 +23,42 @@ struct BlockSums {
   std::int64_t least = std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
 };
 
-// Integers only, and no jumps: then the loop vectorises without leave to reorder sums of doubles.
+// Integers of 64 bits only, in variables of their own, and no jumps: then the loop vectorises
+// without leave to reorder sums of doubles.
 [[gnu::noinline]] BlockSums sum_block(const Material& m, const BlockResults& r, std::size_t count,
                                       double cell, double inverse_quantum) {
-  // Adding it leaves a number below 2^51 rounded to even in the last bits.
-  constexpr double rounder = 0x1.8p52;
+  using Flag = std::int64_t;
+  constexpr BlockSums none;
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double guard = m.eos.guard;
-  BlockSums s;
-  const auto add = [&](double energy, std::uint64_t& quanta) {
-    const double scaled = energy * inverse_quantum;
-    s.large += (scaled < 0x1p51) & (scaled > -0x1p51) ? 0 : 1;
-    quanta +=
-        std::bit_cast<std::uint64_t>(scaled + rounder) - std::bit_cast<std::uint64_t>(rounder);
+  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0, least = none.least;
+  std::uint64_t viscous = 0, compression = 0, unstored = 0;
+  const auto fits = [](double scaled) { return Flag{scaled < 0x1p51} & Flag{scaled > -0x1p51}; };
+  const auto quanta = [](double scaled) {
+    // Adding it leaves a number below 2^51 rounded to even in the last bits.
+    constexpr double rounder = 0x1.8p52;
+    return std::bit_cast<std::uint64_t>(scaled + rounder) - std::bit_cast<std::uint64_t>(rounder);
   };
   for (std::size_t k = 0; k < count; ++k) {
     // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
     // jump over a whole slab.
-    const bool good = (r.volume_ratio[k] > 0.5) & (r.volume_ratio[k] < 2.0) &
-                      (r.energy[k] - r.energy[k] == 0.0) & (r.limit[k] > 0.0) &
-                      (r.travel[k] < cell);
-    s.bad += good ? 0 : 1;
-    s.compressed += r.eta[k] > guard ? 1 : 0;
-    s.slow += r.sound_speed2[k] <= floor2 ? 1 : 0;
+    const Flag good = Flag{r.volume_ratio[k] > 0.5} & Flag{r.volume_ratio[k] < 2.0} &
+                      Flag{r.energy[k] - r.energy[k] == 0.0} & Flag{r.limit[k] > 0.0} &
+                      Flag{r.travel[k] < cell};
+    bad += 1 - good;
+    compressed += Flag{r.eta[k] > guard};
+    slow += Flag{r.sound_speed2[k] <= floor2};
     // Bits of positive numbers are in their order.
-    const std::int64_t limit = std::bit_cast<std::int64_t>(r.limit[k]);
-    s.least = good & (limit < s.least) ? limit : s.least;
-    add(r.viscous[k], s.viscous);
-    add(r.compression[k], s.compression);
-    add(r.unstored[k], s.unstored);
+    const std::int64_t limit = good != 0 ? std::bit_cast<std::int64_t>(r.limit[k]) : none.least;
+    least = limit < least ? limit : least;
+    const double scaled[3] = {r.viscous[k] * inverse_quantum, r.compression[k] * inverse_quantum,
+                              r.unstored[k] * inverse_quantum};
+    large += 1 - (fits(scaled[0]) & fits(scaled[1]) & fits(scaled[2]));
+    viscous += quanta(scaled[0]);
+    compression += quanta(scaled[1]);
+    unstored += quanta(scaled[2]);
   }
-  return s;
+  return {bad, compressed, slow, large, viscous, compression, unstored, least};
 }
 
 void reduce(const Material& m, const BlockResults& r, std::size_t count, double cell,
