@@ -23,6 +23,7 @@ def scheme(name, *settings):
 
 
 DEFAULT = "default: cubic AFLIP"
+MOMENTS = "cubic AFLIP, gradients by moments"
 SCHEMES = (
     scheme(DEFAULT),
     scheme("cubic PolyFLIP", "transfer.velocity=polyflip"),
@@ -32,6 +33,7 @@ SCHEMES = (
     scheme("cubic APIC", "transfer.velocity=apic"),
     scheme("cubic FLIP", "transfer.velocity=flip"),
     scheme("cubic PIC", "transfer.velocity=pic"),
+    scheme(MOMENTS, "transfer.gradient=moments"),
     scheme("cubic AFLIP, unlimited viscosity", "viscosity.limited=false"),
     scheme("quadratic AFLIP", "transfer.shape=quadratic", "transfer.velocity=aflip"),
     scheme("quadratic APIC", "transfer.shape=quadratic", "transfer.velocity=apic"),
@@ -41,7 +43,7 @@ PLATE_CELLS = (40 * UM, 20 * UM, 10 * UM)
 VOID_CELLS = (10 * UM, 5 * UM, 2.5 * UM)  # 8, 16 and 32 cells per void diameter
 FINER_PARTICLES = (DEFAULT, "quadratic AFLIP")  # also with 3 x 3 particles per cell
 # Run with the finest cells too.
-FINEST = (DEFAULT, "cubic PolyPIC", "cubic APIC", "cubic FLIP", "quadratic AFLIP", "lineage (GIMP, FLIP)")
+FINEST = (DEFAULT, MOMENTS, "cubic PolyPIC", "cubic APIC", "cubic FLIP", "quadratic AFLIP", "lineage (GIMP, FLIP)")
 
 
 @dataclass(frozen=True)
