@@ -79,8 +79,6 @@ std::string progress_row(const Clock& clock, double end, const EnergyStatus& ene
 void note_memory(MPI_Comm communicator, Progress& progress) {
   const std::int64_t now = sum(own_memory() - progress.start_own, communicator);
   progress.most_own = std::max(progress.most_own, now);
-  // What sorting, sending and writing have freed since the last time goes back to the system.
-  release_freed_memory();
 }
 
 Timings final_timings(const Clock& clock, const PhaseTable& phases, const WorkMeter& work,

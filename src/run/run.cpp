@@ -31,6 +31,8 @@ namespace poreshock {
 namespace {
 
 constexpr std::int64_t rebalance_interval = 100;
+/// Steps after which freed memory goes back to the system.
+constexpr std::int64_t release_interval = 10;
 constexpr double seconds_between_rows = 2.0;
 
 /// Refuses records that this run could not go on with, before any is cut.
@@ -124,6 +126,7 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& record
   const bool may_rebalance = sim.clock.step % rebalance_interval == 0;
   if (may_rebalance) rebalance(sim);
   if (may_rebalance || sim.clock.on_beat) note_memory(sim.communicator, progress);
+  if (sim.clock.step % release_interval == 0) release_freed_memory();
   return stop_asked;
 }
 
