@@ -8,11 +8,11 @@ BED = (POROUS.replace('kind = "random_voids"', 'kind = "packed_grains"').replace
        .replace("void_radius = 25e-6", "grain_radius = 25e-6\ngrain_spread = 0.2")
        .replace("ligament = 10e-6\nkeep_out = 10e-6\n", "").replace("[checkpoint]", "[contact]\nfriction = 0.3\n[checkpoint]"))
 
-# Balls of four cells across, of two materials in a box.
+# Balls of three cells across, of two materials in a box.
 BALLS_BED = """
 [domain]
 size = [0.1e-3, 0.1e-3, 0.2e-3]
-cell = 10e-6
+cell = 12.5e-6
 periodic = [true, false]
 [boundary]
 low = "wall"
@@ -37,13 +37,14 @@ class CrowdedGrains(ProgramTest):
         self.write("balls.toml", BALLS_BED)
         for command in (["check", "balls.toml"], ["run", "balls.toml", "--output", "out"], ["sample", "balls.toml"]):
             message = self.message(2, *command, ranks=2)
-            self.assertRegex(message, r"^at the start grain \d+ is near \d+ others, grain \d+ among them, and all 8 velocity fields "
+            self.assertRegex(message, r"^at the start grain \d+ is near \d+ others, grain \d+ among them, and all 12 velocity fields "
                              r"are taken there; grains are near each other where less than 4 cells lie between their "
-                             r"particles, and these are 3\.\d+ cells across\. Set domain\.cell to 4\.\d+e-06 m or less, raise "
+                             r"particles, and these are 2\.\d+ cells across\. Set domain\.cell to 4\.\d+e-06 m or less, raise "
                              r"sample\.porosity or sample\.grain_gap, make the grains larger, or take a transfer\.shape of a "
                              r"narrower stencil\.$")
         self.assertFalse((self.folder / "out").exists())
-        self.assertIn("3 cells lie between", self.message(2, "check", "balls.toml", "--set", "transfer.shape=quadratic"))
+        self.assertIn("3 cells lie between", self.message(2, "check", "balls.toml", "--set", "transfer.shape=quadratic",
+                                                             "--set", "domain.cell=20e-6"))
         self.succeed("check", "balls.toml", "--set", "domain.cell=4e-6")
 
 

@@ -113,15 +113,16 @@ std::vector<GrainPair> everybody(int count) {
   return pairs;
 }
 
-TEST(GrainColours, EightMeetAndNineAreRefused) {
-  expect_proper(colour_grains(8, everybody(8)), everybody(8), 8);
+TEST(GrainColours, TwelveMeetAndOneMoreIsRefused) {
+  ASSERT_EQ(most_colours, 12);
+  expect_proper(colour_grains(12, everybody(12)), everybody(12), 12);
   try {
-    colour_grains(9, everybody(9));
-    FAIL() << "nine grains cannot share a place";
+    colour_grains(13, everybody(13));
+    FAIL() << "thirteen grains cannot share a place";
   } catch (const StateError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("near 8 others"), std::string::npos) << text;
-    EXPECT_NE(text.find("all 8 velocity fields are taken"), std::string::npos) << text;
+    EXPECT_NE(text.find("near 12 others"), std::string::npos) << text;
+    EXPECT_NE(text.find("all 12 velocity fields are taken"), std::string::npos) << text;
   }
 }
 

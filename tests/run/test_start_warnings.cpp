@@ -128,11 +128,11 @@ end = 50e-9
 }
 
 TEST(StartWarnings, GrainsThatTakeNearlyAllFields) {
-  // Balls of five cells whose neighbours need seven fields at the start and more when they meet.
+  // Balls of four cells whose neighbours need eleven fields at the start and more when they meet.
   const std::string bed = std::string(R"(
 [domain]
 size = [0.1e-3, 0.1e-3, 0.2e-3]
-cell = 5e-6
+cell = 10e-6
 periodic = [true, false]
 [boundary]
 low = "wall"
@@ -141,7 +141,7 @@ lateral = "symmetry"
 kind = "packed_grains"
 height = 0.15e-3
 grain_radius = 20e-6
-porosity = 0.5
+porosity = 0.52
 [loading]
 velocity = 800
 [time]
@@ -149,7 +149,7 @@ end = 20e-9
 )") + aluminium_text;
   const std::vector<std::string> found = warnings_of(bed);
   ASSERT_EQ(found.size(), 1U);
-  expect_words(found[0], {"The grains take 7 of the 8 velocity fields", "exit code 3"});
+  expect_words(found[0], {"The grains take 11 of the 12 velocity fields", "exit code 3"});
   EXPECT_TRUE(warnings_of(bed, {"sample.porosity=0.8"}).empty());
 }
 

@@ -7,7 +7,6 @@ from .style import HEAT, plt
 
 CONTACT = ("contact_nodes", "crowded_nodes", "least_gap", "penetration", "momentum_residual")
 SHADES = 12  # grains of neighbouring numbers get different ones
-FIELDS = 8   # most velocity fields of a run
 
 
 def present(folder):
@@ -35,7 +34,7 @@ def maps(state, piece, extent, pixel, scale):
     found = [(outlined(grain * 7 % SHADES, grain), "Paired", (-0.5, SHADES - 0.5))]
     if "colour" in state:
         fields = last_on_pixels(across, along, state["colour"].astype(float), extent, pixel)
-        found.append((outlined(fields, grain), "tab10", (-0.5, FIELDS + 1.5)))
+        found.append((outlined(fields, grain), "tab20", (-0.5, 19.5)))
     mean, spans = figures.pixel_mean(across, along, temperature, extent, pixel)
     return [*found, (mean, HEAT, scale)], spans
 

@@ -14,7 +14,7 @@
 namespace poreshock {
 
 /// Most colours, and with it the most grains that may share a node.
-inline constexpr int most_colours = 8;
+inline constexpr int most_colours = 12;
 
 /// A stencil cell that holds particles of a grain.
 struct GrainCell {
