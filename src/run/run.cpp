@@ -126,7 +126,6 @@ bool step(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>& record
   const bool may_rebalance = sim.clock.step % rebalance_interval == 0;
   if (may_rebalance) rebalance(sim);
   if (may_rebalance || sim.clock.on_beat) note_memory(sim.communicator, progress);
-  if (sim.clock.step % release_interval == 0) release_freed_memory();
   return stop_asked;
 }
 
@@ -217,12 +216,13 @@ RunEnd time_loop(const RunOptions& options, Simulation<Dim>& sim, Recorder<Dim>&
     stop_asked = step(options, sim, recorder, progress);
     note_probes(sim, recorder.probes);
     const bool last = at_end(limits, sim.clock);
-    if (sim.clock.on_beat || last) {
+    const bool records = sim.clock.on_beat || last;
+    if (records) {
       record(last, sim, recorder);
-      // Else what a record has freed lies in the heap through the steps that follow.
-      release_freed_memory();
       require_closed_ledger(sim, recorder.last_row);
     }
+    // A record frees much at once, which would lie in the heap through the steps that follow.
+    if (records || sim.clock.step % release_interval == 0) release_freed_memory();
     checkpoint_when_due(MPI_Wtime() - progress.start_wall, sim, recorder);
     show_progress(options.rows, sim, recorder, progress);
   }

@@ -44,8 +44,8 @@ struct EnergyStatus {
 std::string progress_row(const Clock& clock, double end, const EnergyStatus& energy,
                          const PhaseTable& phases, Progress& progress, MPI_Comm communicator);
 
-/// Notes the memory that all ranks hold now, if it is the most so far, and gives back what they
-/// have freed; called at records and rebalances. Collective.
+/// Notes the memory that all ranks hold now, if it is the most so far; called at records and
+/// rebalances. Collective.
 void note_memory(MPI_Comm communicator, Progress& progress);
 
 /// Timings and memory of the whole run; `particles` are this rank's. Collective.
