@@ -1,6 +1,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 #include "hdf5_handle.hpp"
 #include "poreshock/core/error.hpp"
 #include "poreshock/files/block_hash.hpp"

@@ -215,6 +215,15 @@ class SmallDisk {
   int error_ = 0;
 };
 
+/// Takes all of a disk but some bytes, in whole pages. Serial.
+void fill_disk(const std::string& folder, std::uint64_t but) {
+  const FileDescriptor fill(folder + "/fill", O_RDWR | O_CREAT | O_TRUNC);
+  struct statvfs disk {};
+  ASSERT_EQ(statvfs(folder.c_str(), &disk), 0);
+  ASSERT_EQ(posix_fallocate(fill.get(), 0, static_cast<off_t>(disk.f_bavail * disk.f_bsize - but)),
+            0);
+}
+
 TEST(DiskFull, IsFoundBeforeAnyRankWrites) {
   const TemporaryFolder folder;
   const SmallDisk disk(folder / "disk");
@@ -228,10 +237,7 @@ TEST(DiskFull, IsFoundBeforeAnyRankWrites) {
   // The program goes on: a file that fits is written and is whole.
   Hdf5File::create(folder / "disk/small.h5", small_spec(10), world).finish();
   verify(folder / "disk/small.h5", world);
-  test::rank_zero_alone([&] {
-    std::ofstream fill(folder / "disk/fill", std::ios::binary);
-    for (int i = 0; i < 300; ++i) fill << std::string(1024, 'x');
-  });
+  test::rank_zero_alone([&] { fill_disk(folder / "disk", 0); });
   thrown<SystemError>([&] { Hdf5File::create(path, small_spec(1), world); });
   if (rank(world) == 0) {
     EXPECT_TRUE(contains(thrown<SystemError>([&] { write_text(folder / "disk/t.json", "text"); }),
@@ -254,15 +260,6 @@ TEST(DiskFull, FileSizeLimitIsAnErrorAndNotASignal) {
   if (rank(world) == 0) setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_TRUE(contains(text, "file size limit")) << text;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-}
-
-/// Takes all of a disk but some bytes, in whole pages. Serial.
-void fill_disk(const std::string& folder, std::uint64_t but) {
-  const FileDescriptor fill(folder + "/fill", O_RDWR | O_CREAT | O_TRUNC);
-  struct statvfs disk {};
-  ASSERT_EQ(statvfs(folder.c_str(), &disk), 0);
-  ASSERT_EQ(posix_fallocate(fill.get(), 0, static_cast<off_t>(disk.f_bavail * disk.f_bsize - but)),
-            0);
 }
 
 TEST(DiskFull, AFileThatCannotBeWrittenIsClosedForGood) {

@@ -183,12 +183,4 @@ HistoryRow stock(const Simulation<Dim>& sim) {
   return take_stock(sim.scene, sim.materials, sim.particles, sim.ledger, sim.communicator);
 }
 
-/// Runs to the end; what of the internal energy has no name then, over the kinetic energy now.
-template <int Dim>
-double unnamed_share_of_run(Simulation<Dim>& sim) {
-  const HistoryRow before = stock(sim);
-  advance_to(1000000, 0, sim);
-  return unnamed_energy(before, stock(sim)) / before.kinetic;
-}
-
 }  // namespace poreshock::test

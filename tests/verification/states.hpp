@@ -24,13 +24,6 @@ struct Motion {
   std::array<double, 4> gradient{};
 };
 
-/// A number as a scene states it, all digits.
-inline std::string digits(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
-}
-
 /// Overrides that give a plain scene a velocity transfer with its own damping, and more.
 inline std::vector<std::string> with_transfer(VelocityTransfer velocity,
                                               std::vector<std::string> more = {}) {

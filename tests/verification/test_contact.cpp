@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "poreshock/run/profiles.hpp"
+#include "verification/grain_motion.hpp"
 #include "verification/states.hpp"
 
 namespace poreshock::test {
@@ -27,45 +27,9 @@ gamma = 0.0
 cv = 1000
 )";
 
-/// Mean place, velocity and spin of a grain.
-struct Motion {
-  Vector<2> place = Vector<2>::Zero(), velocity = Vector<2>::Zero();
-  double spin = 0.0;
-};
-
-Motion motion_of(const Particles<2>& particles, int grain) {
-  Motion motion;
-  double mass = 0.0, moment = 0.0, inertia = 0.0;
-  const auto place = [&](std::size_t p) {
-    return Vector<2>(particles.position[0][p], particles.position[1][p]);
-  };
-  const auto velocity = [&](std::size_t p) {
-    return Vector<2>(particles.velocity[0][p], particles.velocity[1][p]);
-  };
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    if (particles.grain[p] != grain) continue;
-    mass += particles.mass[p];
-    motion.place += particles.mass[p] * place(p);
-    motion.velocity += particles.mass[p] * velocity(p);
-  }
-  motion.place /= mass;
-  motion.velocity /= mass;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    if (particles.grain[p] != grain) continue;
-    const Vector<2> r = place(p) - motion.place, v = velocity(p) - motion.velocity;
-    moment += particles.mass[p] * (r[0] * v[1] - r[1] * v[0]);
-    inertia += particles.mass[p] * r.squaredNorm();
-  }
-  motion.spin = moment / inertia;
-  return motion;
-}
-
-Motion after(const std::string& text, double time, int grain,
-             std::vector<std::string> overrides = {}) {
-  std::ostringstream end;
-  end.precision(17);
-  end << "time.end=" << time;
-  overrides.push_back(end.str());
+GrainMotion after(const std::string& text, double time, int grain,
+                  std::vector<std::string> overrides = {}) {
+  overrides.push_back("time.end=" + digits(time));
   Simulation<2> sim = start<2>(scene_of(text + soft_text, overrides), MPI_COMM_SELF);
   advance_to(1000000, 0, sim);
   return motion_of(sim.particles, grain);
@@ -73,8 +37,8 @@ Motion after(const std::string& text, double time, int grain,
 
 /// A bed of 3 or 4 cells that the wall holds, grain 1.
 std::string bed(double width, double height) {
-  return "[[body]]\nshape = \"box\"\nlow = [0.0, 0.0]\nhigh = [" + number(width) + ", " +
-         number(height) + "]\ngrain = 1\n";
+  return "[[body]]\nshape = \"box\"\nlow = [0.0, 0.0]\nhigh = [" + digits(width) + ", " +
+         digits(height) + "]\ngrain = 1\n";
 }
 
 // A block of 10 x 4 cells slides on a wall and stops after v0^2 / (2 mu g).
@@ -98,7 +62,7 @@ beat = 1e-3
 end = 1.0
 )";
 TEST(Friction, BlockOnAWall) {
-  const Motion motion = after(block_on_wall_text, 25e-3, 0, {});
+  const GrainMotion motion = after(block_on_wall_text, 25e-3, 0, {});
   verify_relative("block_on_wall", "stop", motion.place[0] - 7e-3, 1.0 / (2.0 * 0.5 * gravity),
                   0.01);
   verify_at_most("block_on_wall", "velocity_after_stop", std::abs(motion.velocity[0]), 1e-3);
@@ -129,13 +93,13 @@ beat = 1e-3
 [time]
 end = 1.0
 )" + bed(60e-3, 3e-3);
-  const Motion motion = after(text, 25e-3, 2, {});
+  const GrainMotion motion = after(text, 25e-3, 2, {});
   verify_relative("block_on_grain", "stop", motion.place[0] - 22e-3, 1.0 / (2.0 * 0.5 * gravity),
                   0.01);
 }
 
 /// A disc of 24 cells across on an incline for 30 ms.
-Motion roll(double friction, double angle) {
+GrainMotion roll(double friction, double angle) {
   const std::string text = R"(
 [domain]
 size = [70e-3, 32e-3]
@@ -153,15 +117,15 @@ beat = 1e-3
 [time]
 end = 1.0
 [contact]
-friction = )" + number(friction) +
-                           "\n[body_force]\nacceleration = [" + number(gravity * std::sin(angle)) +
-                           ", " + number(-gravity * std::cos(angle)) + "]\n" + bed(70e-3, 4e-3);
+friction = )" + digits(friction) +
+                           "\n[body_force]\nacceleration = [" + digits(gravity * std::sin(angle)) +
+                           ", " + digits(-gravity * std::cos(angle)) + "]\n" + bed(70e-3, 4e-3);
   return after(text, 30e-3, 2);
 }
 
 TEST(Friction, DiscRollsDownAnIncline) {
   const double angle = std::numbers::pi / 4.0, time = 30e-3;
-  const Motion motion = roll(0.6, angle);
+  const GrainMotion motion = roll(0.6, angle);
   const double acceleration = 2.0 / 3.0 * gravity * std::sin(angle);
   verify_relative("rolling_disc", "way", motion.place[0] - 15e-3, 0.5 * acceleration * time * time,
                   0.01);
@@ -170,7 +134,7 @@ TEST(Friction, DiscRollsDownAnIncline) {
 
 TEST(Friction, DiscSlipsDownAnIncline) {
   const double angle = std::numbers::pi / 3.0, friction = 0.2, time = 30e-3;
-  const Motion motion = roll(friction, angle);
+  const GrainMotion motion = roll(friction, angle);
   const double acceleration = gravity * (std::sin(angle) - friction * std::cos(angle));
   verify_relative("slipping_disc", "way", motion.place[0] - 15e-3, 0.5 * acceleration * time * time,
                   0.01);
@@ -220,7 +184,7 @@ beat = 0.1
 end = 3.0
 )";
   std::vector<std::string> overrides = scheme;
-  overrides.push_back("domain.cell=" + number(cell));
+  overrides.push_back("domain.cell=" + digits(cell));
   Simulation<2> sim = start<2>(scene_of(text, overrides), MPI_COMM_SELF);
   advance_to(1000000, 0, sim);
   const HistoryRow row = stock(sim);

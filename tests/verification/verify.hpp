@@ -69,9 +69,9 @@ inline void record(const std::string& name, const std::string& figure, double va
   EXPECT_TRUE(std::isfinite(value)) << name << ": " << figure;
 }
 
-/// A number as a scene takes it, exactly.
-inline std::string number(double x) {
-  char text[40];
+/// A number as a scene states it, all digits.
+inline std::string digits(double x) {
+  char text[32];
   std::snprintf(text, sizeof text, "%.17g", x);
   return text;
 }
