@@ -5,7 +5,7 @@ from . import folder as reader
 from .style import COLOURS, plt
 
 LEDGER = ("total", "kinetic", "internal", "escaped", "handed_over", "taken_in", "wall_work", "body_work")
-SPLITS = ("elastic", *reader.HEATS, "conduction")
+SPLITS = ("elastic", "compression_work", *reader.HEATS, "conduction")
 
 
 def energy(folder):
