@@ -11,14 +11,20 @@
 #include "poreshock/material/material.hpp"
 #include "poreshock/particles/particles.hpp"
 #include "poreshock/physics/stress.hpp"
+#include "poreshock/scene/transfer_scheme.hpp"
 
 namespace poreshock::reference {
 
+/// Modes of a particle: velocity, r_x, r_y and, of PolyFLIP, xx, yy, xy.
+template <Modes M>
+inline constexpr int plain_mode_count = 1 + higher_modes<2, M>;
+
 /// One particle, SI units.
+template <Modes M>
 struct PlainParticle {
   std::int64_t id;
   double x[2];
-  double mode[2][6];  ///< m/s: velocity, r_x, r_y and amplitudes of xx, yy, xy of norm 1
+  double mode[2][plain_mode_count<M>];  ///< m/s: velocity and amplitudes of norm 1
   double mass, density, pressure, viscous_pressure, energy, plastic_strain, plastic_work;
   SymmetricTensor<2> deviator;
   double heat, viscous_linear, viscous_quadratic;
@@ -31,8 +37,9 @@ struct PlainNode {
 };
 
 /// All of a body and the grid it moves through.
+template <Modes M>
 struct PlainBody {
-  std::vector<PlainParticle> particles;
+  std::vector<PlainParticle<M>> particles;
   std::vector<PlainNode> nodes;
   int width = 0, rows = 0;  ///< nodes; node i lies at (i - 1) cells
   double cell = 0.0;        ///< m
@@ -49,10 +56,10 @@ struct PlainWeights {
   double value[2][4], slope[2][4], offset[2][4];  ///< offset of the node, cells
 };
 
-inline PlainWeights plain_weights(const PlainBody& body, const PlainParticle& p) {
+inline PlainWeights plain_weights(const double* position, double cell) {
   PlainWeights w;
   for (int a = 0; a < 2; ++a) {
-    const double s = p.x[a] / body.cell;
+    const double s = position[a] / cell;
     const double floor = std::floor(s);
     const double f = s - floor, g = 1.0 - f;
     w.base[a] = static_cast<int>(floor);
@@ -70,58 +77,66 @@ inline PlainWeights plain_weights(const PlainBody& body, const PlainParticle& p)
 }
 
 /// Calls visit(node, i, j) for the sixteen nodes a particle sees.
-template <class Visit>
-void for_each_plain_node(PlainBody& body, const PlainWeights& w, Visit&& visit) {
+template <Modes M, class Visit>
+void for_each_plain_node(PlainBody<M>& body, const PlainWeights& w, Visit&& visit) {
   for (int j = 0; j < 4; ++j) {
     PlainNode* const row = body.nodes.data() + (w.base[1] + j) * body.width + w.base[0];
     for (int i = 0; i < 4; ++i) visit(row[i], i, j);
   }
 }
 
-/// Modes of norm 1 at the node i, j: 1, x, y, xx, yy, xy.
+/// Modes of norm 1 at the node i, j: 1, x, y and, of PolyFLIP, xx, yy, xy.
+template <Modes M>
 struct PlainModes {
-  double norm[6];  ///< roots of the norms of the plain products
+  double norm[plain_mode_count<M>];  ///< roots of the norms of the plain products
 
   explicit PlainModes(const PlainWeights& w) {
     norm[0] = 1.0;
     norm[1] = norm[2] = std::sqrt(1.0 / 3.0);
-    norm[5] = 1.0 / 3.0;
-    for (int a = 0; a < 2; ++a) {
-      const double f = -1.0 - w.offset[a][0];
-      norm[3 + a] = std::sqrt(2.0 / 9.0 - f * f * (1.0 - f) * (1.0 - f));
+    if constexpr (M == Modes::quadratic) {
+      for (int a = 0; a < 2; ++a) {
+        const double f = -1.0 - w.offset[a][0];
+        norm[3 + a] = std::sqrt(2.0 / 9.0 - f * f * (1.0 - f) * (1.0 - f));
+      }
+      norm[5] = 1.0 / 3.0;
     }
   }
 
-  std::array<double, 6> at(const PlainWeights& w, int i, int j) const {
+  std::array<double, plain_mode_count<M>> at(const PlainWeights& w, int i, int j) const {
     const double x = w.offset[0][i], y = w.offset[1][j];
-    return {1.0,
-            x / norm[1],
-            y / norm[2],
-            (x * x - 1.0 / 3.0) / norm[3],
-            (y * y - 1.0 / 3.0) / norm[4],
-            x * y / norm[5]};
+    if constexpr (M == Modes::quadratic) {
+      return {1.0,
+              x / norm[1],
+              y / norm[2],
+              (x * x - 1.0 / 3.0) / norm[3],
+              (y * y - 1.0 / 3.0) / norm[4],
+              x * y / norm[5]};
+    } else {
+      return {1.0, x / norm[1], y / norm[2]};
+    }
   }
 };
 
 /// Sorts by cell, as the sweeps like it.
-inline void plain_sort(PlainBody& body) {
-  const auto cell = [&](const PlainParticle& p) {
+template <Modes M>
+void plain_sort(PlainBody<M>& body) {
+  const auto cell = [&](const PlainParticle<M>& p) {
     return static_cast<std::size_t>(p.x[1] / body.cell) * static_cast<std::size_t>(body.width) +
            static_cast<std::size_t>(p.x[0] / body.cell);
   };
   std::vector<std::uint32_t> start(body.nodes.size() + 1, 0);
-  for (const PlainParticle& p : body.particles) ++start[cell(p) + 1];
+  for (const PlainParticle<M>& p : body.particles) ++start[cell(p) + 1];
   for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
-  std::vector<PlainParticle> sorted(body.particles.size());
-  for (const PlainParticle& p : body.particles) sorted[start[cell(p)]++] = p;
+  std::vector<PlainParticle<M>> sorted(body.particles.size());
+  for (const PlainParticle<M>& p : body.particles) sorted[start[cell(p)]++] = p;
   body.particles.swap(sorted);
 }
 
 /// The body that the particles and the grid of the program make.
-inline PlainBody plain_body(const Particles<2>& particles, const GridShape& shape,
-                            const Material& material, const StressSettings<2>& settings,
-                            double lost) {
-  PlainBody body;
+template <Modes M>
+PlainBody<M> plain_body(const Particles<2>& particles, const GridShape& shape,
+                        const Material& material, const StressSettings<2>& settings, double lost) {
+  PlainBody<M> body;
   body.lost = lost;
   body.width = shape.row_size;
   body.rows = shape.rows + 3;
@@ -130,7 +145,7 @@ inline PlainBody plain_body(const Particles<2>& particles, const GridShape& shap
   body.material = material;
   body.settings = settings;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    PlainParticle& q = body.particles.emplace_back();
+    PlainParticle<M>& q = body.particles.emplace_back();
     q.id = particles.id[p];
     for (int a = 0; a < 2; ++a) {
       q.x[a] = particles.position[a][p];
@@ -138,7 +153,9 @@ inline PlainBody plain_body(const Particles<2>& particles, const GridShape& shap
       for (int k = 0; k < 2; ++k) {
         q.mode[a][1 + k] = std::sqrt(1.0 / 3.0) * body.cell * particles.affine[2 * a + k][p];
       }
-      for (int k = 0; k < 3; ++k) q.mode[a][3 + k] = particles.quadratic[3 * a + k][p];
+      if constexpr (M == Modes::quadratic) {
+        for (int k = 0; k < 3; ++k) q.mode[a][3 + k] = particles.quadratic[3 * a + k][p];
+      }
     }
     q.mass = particles.mass[p];
     q.density = particles.density[p];

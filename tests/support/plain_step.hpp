@@ -1,5 +1,5 @@
 #pragma once
-// One step of the richest scheme in 2-D (cubic B-splines, PolyFLIP, limited viscosity, conserving
+// One step of AFLIP or PolyFLIP in 2-D (cubic B-splines, limited viscosity, conserving
 // thermodynamics, no walls) the plain way: a particle at a time, a node at a time, structs in
 // arrays, particles sorted by cell. It is what the speed of the kernels is measured against, and an
 // oracle for the whole step. Not to be tuned.
@@ -12,11 +12,12 @@
 
 namespace poreshock::reference {
 
-inline void plain_particles_to_grid(PlainBody& body) {
+template <Modes M>
+void plain_particles_to_grid(PlainBody<M>& body) {
   for (PlainNode& n : body.nodes) n = {};
-  for (const PlainParticle& p : body.particles) {
-    const PlainWeights w = plain_weights(body, p);
-    const PlainModes modes(w);
+  for (const PlainParticle<M>& p : body.particles) {
+    const PlainWeights w = plain_weights(p.x, body.cell);
+    const PlainModes<M> modes(w);
     const double volume = p.mass / p.density / body.cell;
     const double pressure = p.pressure + p.viscous_pressure;
     const double xx = p.deviator[0] - pressure;
@@ -28,7 +29,7 @@ inline void plain_particles_to_grid(PlainBody& body) {
       const double gx = w.slope[0][i] * w.value[1][j], gy = w.value[0][i] * w.slope[1][j];
       n.mass += mass;
       for (int a = 0; a < 2; ++a) {
-        for (int k = 0; k < 6; ++k) n.momentum[a] += mass * p.mode[a][k] * phi[k];
+        for (int k = 0; k < plain_mode_count<M>; ++k) n.momentum[a] += mass * p.mode[a][k] * phi[k];
       }
       n.force[0] -= volume * (xx * gx + xy * gy);
       n.force[1] -= volume * (xy * gx + yy * gy);
@@ -36,7 +37,8 @@ inline void plain_particles_to_grid(PlainBody& body) {
   }
 }
 
-inline void plain_update_nodes(double dt, PlainBody& body) {
+template <Modes M>
+void plain_update_nodes(double dt, PlainBody<M>& body) {
   for (PlainNode& n : body.nodes) {
     if (n.mass == 0.0) continue;
     for (int a = 0; a < 2; ++a) {
@@ -47,22 +49,24 @@ inline void plain_update_nodes(double dt, PlainBody& body) {
 }
 
 /// What a particle sees of the nodes.
+template <Modes M>
 struct PlainMoments {
-  double start[2][6], end[2][6];  ///< of the modes
-  double kinetic;                 ///< sum N (|v' - v|^2/2 + lost v.v')
-  double across[2][4];            ///< end velocity along each axis at its four nodes
+  double start[2][plain_mode_count<M>], end[2][plain_mode_count<M>];  ///< of the modes
+  double kinetic;       ///< sum N (|v' - v|^2/2 + lost v.v')
+  double across[2][4];  ///< end velocity along each axis at its four nodes
 };
 
-inline PlainMoments plain_moments(const PlainWeights& w, PlainBody& body, PlainParticle& p) {
-  const PlainModes modes(w);
-  PlainMoments m{};
+template <Modes M>
+PlainMoments<M> plain_moments(const PlainWeights& w, PlainBody<M>& body, PlainParticle<M>& p) {
+  const PlainModes<M> modes(w);
+  PlainMoments<M> m{};
   double end[2][2] = {}, start[2][2] = {};
   for_each_plain_node(body, w, [&](const PlainNode& n, int i, int j) {
     const double N = w.value[0][i] * w.value[1][j];
     const auto phi = modes.at(w, i, j);
     const double slope[2] = {w.slope[0][i] * w.value[1][j], w.value[0][i] * w.slope[1][j]};
     for (int a = 0; a < 2; ++a) {
-      for (int k = 0; k < 6; ++k) {
+      for (int k = 0; k < plain_mode_count<M>; ++k) {
         m.start[a][k] += N * phi[k] * n.start[a];
         m.end[a][k] += N * phi[k] * n.end[a];
       }
@@ -86,10 +90,11 @@ inline PlainMoments plain_moments(const PlainWeights& w, PlainBody& body, PlainP
 }
 
 /// New modes and the heat of the transfer; modes are shortened where it would be negative.
-inline void plain_modes(const PlainMoments& m, double lost, double rounding, PlainParticle& p) {
+template <Modes M>
+void plain_modes(const PlainMoments<M>& m, double lost, double rounding, PlainParticle<M>& p) {
   double heat = m.kinetic, energy = 0.0;
   for (int a = 0; a < 2; ++a) {
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < plain_mode_count<M>; ++k) {
       const double residual = p.mode[a][k] - m.start[a][k];
       const double change = m.end[a][k] - m.start[a][k];
       const double decay = k == 0 ? lost * (1.0 - 0.5 * lost) : 0.5;
@@ -104,13 +109,14 @@ inline void plain_modes(const PlainMoments& m, double lost, double rounding, Pla
   const double factor =
       std::sqrt(std::max(0.0, 1.0 + 2.0 * missing / (energy > 0.0 ? energy : 1.0)));
   for (int a = 0; a < 2; ++a) {
-    for (int k = 1; k < 6; ++k) p.mode[a][k] *= factor;
+    for (int k = 1; k < plain_mode_count<M>; ++k) p.mode[a][k] *= factor;
   }
   p.heat = heat - missing;
 }
 
 /// Shares of the artificial viscosity that act.
-inline void plain_limiter(const PlainMoments& m, PlainParticle& p) {
+template <Modes M>
+void plain_limiter(const PlainMoments<M>& m, PlainParticle<M>& p) {
   double linear = 0.0, quadratic = 0.0, closing = 0.0;
   for (int a = 0; a < 2; ++a) {
     const double rate = std::max(0.0, -p.gradient[a][a]);
@@ -129,9 +135,10 @@ inline void plain_limiter(const PlainMoments& m, PlainParticle& p) {
   p.viscous_quadratic = closing > 0.0 ? quadratic / closing : 0.0;
 }
 
-inline void plain_grid_to_particles(double dt, PlainBody& body) {
-  for (PlainParticle& p : body.particles) {
-    const PlainMoments m = plain_moments(plain_weights(body, p), body, p);
+template <Modes M>
+void plain_grid_to_particles(double dt, PlainBody<M>& body) {
+  for (PlainParticle<M>& p : body.particles) {
+    const PlainMoments<M> m = plain_moments(plain_weights(p.x, body.cell), body, p);
     for (int a = 0; a < 2; ++a) p.x[a] += dt * m.end[a][0];
     plain_modes(m, body.lost, body.rounding, p);
     plain_limiter(m, p);
@@ -139,8 +146,9 @@ inline void plain_grid_to_particles(double dt, PlainBody& body) {
 }
 
 /// The constitutive update of one particle; returns its stable step, s.
-inline double plain_stress(const Material& m, const StressSettings<2>& settings, double dt,
-                           PlainParticle& p) {
+template <Modes M>
+double plain_stress(const Material& m, const StressSettings<2>& settings, double dt,
+                    PlainParticle<M>& p) {
   const auto& d = p.middle;
   const double shear_rate = 0.5 * (d[0][1] + d[1][0]);
   const double volume = 1.0 / p.density;
@@ -179,12 +187,13 @@ inline double plain_stress(const Material& m, const StressSettings<2>& settings,
   return std::min(wave, 0.2 / rate);
 }
 
-inline void plain_step(double dt, PlainBody& body) {
+template <Modes M>
+void plain_step(double dt, PlainBody<M>& body) {
   plain_particles_to_grid(body);
   plain_update_nodes(dt, body);
   plain_grid_to_particles(dt, body);
   body.dt_limit = 1.0;
-  for (PlainParticle& p : body.particles) {
+  for (PlainParticle<M>& p : body.particles) {
     body.dt_limit = std::min(body.dt_limit, plain_stress(body.material, body.settings, dt, p));
   }
 }
