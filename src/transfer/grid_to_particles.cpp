@@ -1,5 +1,7 @@
 #include "poreshock/transfer/grid_to_particles.hpp"
 
+#include <bit>
+
 #include "jump_limiter.hpp"
 #include "lane_particles.hpp"
 #include "velocity_modes.hpp"
@@ -122,11 +124,9 @@ inline void book_heat(const Lanes& heat, const GroupMoments<Dim, M>& m, const La
   for (int a = 0; a < Dim; ++a) {
     square += m.value[Lane::end_velocity + a] * m.value[Lane::end_velocity + a];
   }
-  const Lanes energy = mass * heat, least = 1e-12 * square + (motion.least_heat - Lanes{});
-  for (int n = 0; n < group.count; ++n) {
-    report.heat += quantise(energy[n], motion.inverse_energy_quantum);
-    report.negative += heat[n] < -least[n] ? 1 : 0;
-  }
+  const Lanes zero{}, least = zero - (1e-12 * square + (motion.least_heat - zero));
+  report.negative += std::popcount(bits_less(heat, least) & first_bits(group.count));
+  report.heat += sum_of_quanta(mass * heat, group.count, motion.inverse_energy_quantum);
 }
 
 /// Moves the particles of a group.

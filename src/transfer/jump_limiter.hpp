@@ -61,12 +61,10 @@ inline ViscousShares viscous_shares(const GroupMoments<Dim, M>& m) {
       closing[n] += w;
     }
   }
-  for (int n = 0; n < lane_count; ++n) {
-    const double all = closing[n] > 0.0 ? closing[n] : 1.0;
-    linear[n] = linear[n] / all;
-    quadratic[n] = quadratic[n] / all;
-  }
-  return {*reinterpret_cast<const Lanes*>(linear), *reinterpret_cast<const Lanes*>(quadratic)};
+  const Lanes sum = *reinterpret_cast<const Lanes*>(closing);
+  const Lanes all = where_less(Lanes{}, sum, sum, 1.0 - Lanes{});
+  return {*reinterpret_cast<const Lanes*>(linear) / all,
+          *reinterpret_cast<const Lanes*>(quadratic) / all};
 }
 
 }  // namespace poreshock

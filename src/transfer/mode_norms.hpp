@@ -18,15 +18,9 @@ struct ModeNorms {
   std::array<Lanes, M == Modes::quadratic ? Dim : 0> inverse, root, inverse_root;
 };
 
-/// Square root, lane by lane.
+/// Square root of one number where the lanes are written as one.
 inline double square_root(double x) {
   return std::sqrt(x);
-}
-inline Lanes square_root(const Lanes& x) {
-  double values[lane_count];
-  *reinterpret_cast<Lanes*>(values) = x;
-  for (double& value : values) value = std::sqrt(value);
-  return *reinterpret_cast<const Lanes*>(values);
 }
 
 /// Norm of r_a^2 - D under the cubic B-spline at the place f in the cell: the fourth moment less

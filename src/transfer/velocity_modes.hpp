@@ -13,6 +13,8 @@
 /// with R = c - M, lambda = 1 - kappa_0 and s_i = |u'_i - u_i|^2/2 + lambda u_i . u'_i. It closes
 /// the energy for any shares, and is not negative where all kappa_k are equal.
 
+#include <bit>
+
 #include "mode_norms.hpp"
 #include "moments.hpp"
 
@@ -102,23 +104,15 @@ inline int shorten(const ModeNorms<Dim, M>& norm, int count, ModeLanes<Dim, M>& 
     for (int a = 0; a < Dim; ++a) square += modes[k][a] * modes[k][a];
     energy += norm.value[k] * square;
   }
-  double missing[lane_count], size[lane_count], factor[lane_count];
-  *reinterpret_cast<Lanes*>(missing) = heat + rounding;
-  *reinterpret_cast<Lanes*>(size) = energy;
-  int shortened = 0;
-  for (int n = 0; n < lane_count; ++n) {
-    const double low = missing[n] < 0.0 ? missing[n] : 0.0;
-    const double square = 1.0 + 2.0 * low / (size[n] > 0.0 ? size[n] : 1.0);
-    factor[n] = std::sqrt(square > 0.0 ? square : 0.0);
-    missing[n] = low;
-  }
-  for (int n = 0; n < count; ++n) shortened += factor[n] < 0.9 ? 1 : 0;
-  heat = heat - *reinterpret_cast<const Lanes*>(missing);
-  const Lanes shorter = *reinterpret_cast<const Lanes*>(factor);
+  const Lanes zero{}, one = 1.0 - zero, low = heat + rounding;
+  const Lanes missing = where_less(low, zero, low, zero);
+  const Lanes square = one + (2.0 * missing) / where_less(zero, energy, energy, one);
+  const Lanes factor = square_root(larger(zero, square));
+  heat = heat - missing;
   for (std::size_t k = 1; k < modes.size(); ++k) {
-    for (int a = 0; a < Dim; ++a) modes[k][a] = shorter * modes[k][a];
+    for (int a = 0; a < Dim; ++a) modes[k][a] = factor * modes[k][a];
   }
-  return shortened;
+  return std::popcount(bits_less(factor, 0.9 - zero) & first_bits(count));
 }
 
 /// Turns the affine part with the material over a step, A <- A R^T: a gradient that is carried

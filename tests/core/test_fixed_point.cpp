@@ -39,6 +39,24 @@ TEST(Quantise, StopsAtTheEndOfItsRange) {
   EXPECT_EQ(quantise(std::nextafter(std::ldexp(1.0, 62), 0.0), 1.0), end - 512);
 }
 
+TEST(Quantise, OfLanesIsTheSumOfEach) {
+  // Ties, both signs, and numbers beside and beyond the range in which doubles add exactly.
+  const Lanes plain = {2.5, -2.5, 3.5, 0x1p40 + 0.25, -0.74, 0x1p48 + 0.5, 0.0, -7.0};
+  Lanes large = plain, huge = plain;
+  large[6] = 0x1p50 + 1.0;
+  huge[1] = -1e30;
+  huge[7] = std::numeric_limits<double>::infinity();
+  for (const Lanes& values : {plain, large, huge}) {
+    for (const double per_quantum : {0.25, 1.0, 0x1p20}) {
+      for (int count = 1; count <= lane_count; ++count) {
+        Int128 sum = 0;
+        for (int k = 0; k < count; ++k) sum += quantise(values[k], per_quantum);
+        EXPECT_TRUE(sum_of_quanta(values, count, per_quantum) == sum) << count << per_quantum;
+      }
+    }
+  }
+}
+
 TEST(PowerOfTwo, IsTheLargestNotAbove) {
   EXPECT_EQ(power_of_two_below(1.0), 1.0);
   EXPECT_EQ(power_of_two_below(std::nextafter(1.0, 0.0)), 0.5);

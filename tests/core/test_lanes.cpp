@@ -53,11 +53,22 @@ TEST(Lanes, ChooseLaneByLane) {
   const Lanes a = {1.0, -2.0, 3.0, 0.0, 5.0, -6.0, 7.0, -8.0};
   const Lanes b = {1.0, 2.0, -3.0, -0.0, 5.5, -6.0, -7.0, 8.0};
   const Lanes most = larger(a, b), chosen = where_differ(a, b, a + a, b);
+  const Lanes less = where_less(a, b, a, a + b);
+  EXPECT_EQ(bits_less(a, b), 0b10010010u);
+  EXPECT_EQ(bits_less(b, a), 0b01000100u);
+  EXPECT_EQ(first_bits(3), 0b111u);
   for (int k = 0; k < lane_count; ++k) {
     EXPECT_EQ(most[k], std::max(a[k], b[k]));
     EXPECT_EQ(chosen[k], a[k] != b[k] ? 2.0 * a[k] : b[k]);
+    EXPECT_EQ(less[k], a[k] < b[k] ? a[k] : a[k] + b[k]);
   }
   EXPECT_TRUE(std::signbit(chosen[3]));
+}
+
+TEST(Lanes, SquareRoot) {
+  const Lanes x = {0.0, 1.0, 2.0, 3.0, 1e-300, 1e300, 0.25, 7.0};
+  const Lanes root = square_root(x);
+  for (int k = 0; k < lane_count; ++k) EXPECT_EQ(root[k], std::sqrt(x[k]));
 }
 
 TEST(Lanes, Halves) {

@@ -96,6 +96,12 @@ inline HalfLanes where_differ(const HalfLanes& a, const HalfLanes& b, const Half
   return a != b ? x : y;
 }
 
+/// x where a is less than b, else y, lane by lane.
+inline HalfLanes where_less(const HalfLanes& a, const HalfLanes& b, const HalfLanes& x,
+                            const HalfLanes& y) {
+  return a < b ? x : y;
+}
+
 inline Lanes larger(const Lanes& a, const Lanes& b) {
 #ifdef __AVX512F__
   return a < b ? b : a;
@@ -109,6 +115,48 @@ inline Lanes where_differ(const Lanes& a, const Lanes& b, const Lanes& x, const 
   return a != b ? x : y;
 #else
   return {where_differ(a.low, b.low, x.low, y.low), where_differ(a.high, b.high, x.high, y.high)};
+#endif
+}
+
+inline Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y) {
+#ifdef __AVX512F__
+  return a < b ? x : y;
+#else
+  return {where_less(a.low, b.low, x.low, y.low), where_less(a.high, b.high, x.high, y.high)};
+#endif
+}
+
+/// Bit k is set where lane k of a is less than that of b.
+inline unsigned bits_less(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+#elif defined(__FMA__)
+  const auto bits = [](const HalfLanes& x, const HalfLanes& y) {
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(x, y, _CMP_LT_OQ)));
+  };
+  return bits(low_half(a), low_half(b)) | bits(high_half(a), high_half(b)) << 4;
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < lane_count; ++k) bits |= (a[k] < b[k] ? 1u : 0u) << k;
+  return bits;
+#endif
+}
+
+/// Bits of the first `count` lanes.
+inline unsigned first_bits(int count) {
+  return (1u << count) - 1u;
+}
+
+/// The square root, lane by lane.
+inline Lanes square_root(const Lanes& x) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_sqrt_pd(0xff, x);  // without a mask GCC warns of its header
+#elif defined(__FMA__)
+  return join(_mm256_sqrt_pd(low_half(x)), _mm256_sqrt_pd(high_half(x)));
+#else
+  Lanes result;
+  for (int k = 0; k < lane_count; ++k) result[k] = std::sqrt(x[k]);
+  return result;
 #endif
 }
 
