@@ -180,9 +180,9 @@ template <int Dim, Modes M, Keeps Kept, class Spline>
     group.place += group.count;
     group.count = 0;
   };
-  gather_with<Dim, Spline>(
-      [&](std::uint32_t p, const std::array<int, Dim>& base) {
-        return point_weights<Dim>(spline, particles, p, base, inverse_cell);
+  gather_with<Dim, Spline, PointWeights<Dim>>(
+      [&](std::uint32_t p, const std::array<int, Dim>& base, PointWeights<Dim>& w) {
+        set_point_weights<Dim>(spline, particles, p, base, inverse_cell, w);
       },
       particles, cells, grid, rows,
       [&](std::uint32_t p, const PointWeights<Dim>& w, const Lanes* nodes) {

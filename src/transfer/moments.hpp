@@ -46,10 +46,9 @@ struct PointWeights {
 };
 
 template <int Dim, class Spline>
-inline PointWeights<Dim> point_weights(const Spline& spline, const Particles<Dim>& particles,
-                                       std::uint32_t p, const std::array<int, Dim>& base,
-                                       double inverse_cell) {
-  PointWeights<Dim> w;
+inline void set_point_weights(const Spline& spline, const Particles<Dim>& particles,
+                              std::uint32_t p, const std::array<int, Dim>& base,
+                              double inverse_cell, PointWeights<Dim>& w) {
   const auto store = [&w](const AxisLanes& lanes, int first) {
     const Lanes moment = lanes.value * lanes.offset;
     *reinterpret_cast<Lanes*>(w.value + first) = lanes.value;
@@ -61,7 +60,6 @@ inline PointWeights<Dim> point_weights(const Spline& spline, const Particles<Dim
   for (int a = 0; a < Dim; ++a) {
     w.local[a] = local_place<Spline>(particles.position[a][p] * inverse_cell, base[a]);
   }
-  return w;
 }
 
 /// Velocities of a stencil summed with the weights of all axes but one: what a particle sees along

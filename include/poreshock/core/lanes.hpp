@@ -41,6 +41,12 @@ struct [[gnu::may_alias]] Lanes {  // like vectors, it aliases doubles
   /// Not set, like a vector of the compiler.
   constexpr Lanes() = default;
   constexpr Lanes(const HalfLanes& first, const HalfLanes& second) : low(first), high(second) {}
+  // Written out: the compiler copies structs in pieces, for which loads of a half would wait.
+  constexpr Lanes(const Lanes& x) : low(x.low), high(x.high) {}
+  constexpr Lanes& operator=(const Lanes& x) {
+    low = x.low, high = x.high;
+    return *this;
+  }
   /// Lanes that are not given are 0.
   constexpr Lanes(double x0, double x1, double x2 = 0.0, double x3 = 0.0, double x4 = 0.0,
                   double x5 = 0.0, double x6 = 0.0, double x7 = 0.0)

@@ -24,13 +24,10 @@ struct BlockWeights {
   std::array<double, others> slope, offset;
 };
 
-template <int Dim, WeightParts Parts, class Spline>
-inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
-                                                      const Particles<Dim>& particles,
-                                                      std::uint32_t p,
-                                                      const std::array<int, Dim>& base,
-                                                      double inverse_cell) {
-  BlockWeights<Dim, Spline, Parts> w;
+template <int Dim, class Spline, WeightParts Parts>
+inline void set_block_weights(const Spline& spline, const Particles<Dim>& particles,
+                              std::uint32_t p, const std::array<int, Dim>& base,
+                              double inverse_cell, BlockWeights<Dim, Spline, Parts>& w) {
   const auto store = [&w](const AxisLanes& lanes, int first) {
     *reinterpret_cast<Lanes*>(w.value.data() + first) = lanes.value;
     if constexpr (Parts != WeightParts::values) {
@@ -39,7 +36,6 @@ inline BlockWeights<Dim, Spline, Parts> block_weights(const Spline& spline,
     }
   };
   for_each_axis_pair<Dim>(spline, particles, p, base, inverse_cell, store);
-  return w;
 }
 
 /// One number of the first axis at the nodes of any block.
@@ -100,17 +96,18 @@ void scatter_blocks(const Spline& spline, const Particles<Dim>& particles, const
   const double inverse_cell = 1.0 / shape.cell;
   PlanarBuffer<Dim, Spline, Quantities> buffer(shape, grid.fields());
   grid.clear();
-  const auto weights = [&](std::uint32_t p, const std::array<int, Dim>& base) {
-    return block_weights<Dim, Parts>(spline, particles, p, base, inverse_cell);
+  using Weights = BlockWeights<Dim, Spline, Parts>;
+  const auto prepare = [&](std::uint32_t p, const std::array<int, Dim>& base, Weights& w) {
+    set_block_weights<Dim>(spline, particles, p, base, inverse_cell, w);
   };
   for_each_run(
       particles, cells, grid, awake_rows(cells, grid),
       [&](int row, int lateral, const std::uint32_t* first, const std::uint32_t* last) {
         if (!takes(row, lateral)) return;
         alignas(64) Lanes sums[Quantities][blocks] = {};
-        for_each_batch<Dim>(
-            first, last, cell_index<Dim>(shape, row, lateral), weights,
-            [&](const Batch<Dim>& batch, const auto* w) { accumulate(batch, w, sums); });
+        for_each_batch<Dim, Weights>(
+            first, last, cell_index<Dim>(shape, row, lateral), prepare,
+            [&](const Batch<Dim>& batch, const Weights* w) { accumulate(batch, w, sums); });
         const std::ptrdiff_t at =
             buffer.start_of(field_of(particles, cells, *first, grid)) + lateral;
         for (int q = 0; q < Quantities; ++q) {

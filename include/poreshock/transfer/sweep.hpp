@@ -154,15 +154,16 @@ struct Batch {
   std::array<int, Dim> base;  ///< lowest node of their stencil
 };
 
-/// Calls visit(batch, weights of its particles) for all of a run; weights(p, base) are made for the
-/// whole batch first, so that they do not wait for each other.
-template <int Dim, class Weights, class Visit>
+/// Calls visit(batch, weights of its particles) for all of a run; prepare(p, base, weights) makes
+/// them for the whole batch first, so that they do not wait for each other, and in place: a copy
+/// would wait for its stores.
+template <int Dim, class Weights, class Prepare, class Visit>
 inline void for_each_batch(const std::uint32_t* first, const std::uint32_t* last,
-                           const std::array<int, Dim>& base, Weights&& weights, Visit&& visit) {
-  decltype(weights(*first, base)) prepared[lane_count];
+                           const std::array<int, Dim>& base, Prepare&& prepare, Visit&& visit) {
+  Weights prepared[lane_count];
   while (first != last) {
     const Batch<Dim> batch = {first, std::min<std::ptrdiff_t>(lane_count, last - first), base};
-    for (std::ptrdiff_t n = 0; n < batch.count; ++n) prepared[n] = weights(first[n], base);
+    for (std::ptrdiff_t n = 0; n < batch.count; ++n) prepare(first[n], base, prepared[n]);
     visit(batch, prepared);
     first += batch.count;
   }
@@ -199,10 +200,11 @@ void scatter(const Spline& spline, const Particles<Dim>& particles, const CellOr
       });
 }
 
-/// Gathers from nodes: visit(p, weights(p, base), nodes) sees the stencil nodes of each particle,
-/// base being the lowest. Nodes must be complete, periodic images filled. Not collective.
-template <int Dim, class Spline, class Weights, class Visit>
-void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellOrder& cells,
+/// Gathers from nodes: visit(p, weights, nodes) sees the stencil nodes of each particle and what
+/// prepare(p, base, weights) made, base being the lowest node. Nodes must be complete, periodic
+/// images filled. Not collective.
+template <int Dim, class Spline, class Weights, class Prepare, class Visit>
+void gather_with(Prepare&& prepare, const Particles<Dim>& particles, const CellOrder& cells,
                  const SlabGrid& grid, RowRange rows, Visit&& visit) {
   const GridShape& shape = grid.shape();
   for_each_run(
@@ -217,9 +219,11 @@ void gather_with(Weights&& weights, const Particles<Dim>& particles, const CellO
           const Lanes* source = grid.line(field, row + k, lateral + across);
           for (int i = 0; i < Spline::width; ++i) nodes[n + i] = source[i];
         }
-        for_each_batch<Dim>(first, last, base, weights, [&](const Batch<Dim>& batch, auto* w) {
-          for (std::ptrdiff_t n = 0; n < batch.count; ++n) visit(batch.first[n], w[n], nodes);
-        });
+        for_each_batch<Dim, Weights>(first, last, base, prepare,
+                                     [&](const Batch<Dim>& batch, const Weights* w) {
+                                       for (std::ptrdiff_t n = 0; n < batch.count; ++n)
+                                         visit(batch.first[n], w[n], nodes);
+                                     });
       },
       [](int) {});
 }
@@ -229,9 +233,10 @@ template <int Dim, class Spline, class Visit>
 void gather(const Spline& spline, const Particles<Dim>& particles, const CellOrder& cells,
             const SlabGrid& grid, Visit&& visit) {
   const double inverse_cell = 1.0 / grid.shape().cell;
-  gather_with<Dim, Spline>(
-      [&](std::uint32_t p, const std::array<int, Dim>& base) {
-        return stencil_at<Dim>(spline, particles, p, base, inverse_cell);
+  using Weights = Stencil<Dim, Spline>;
+  gather_with<Dim, Spline, Weights>(
+      [&](std::uint32_t p, const std::array<int, Dim>& base, Weights& stencil) {
+        stencil = stencil_at<Dim>(spline, particles, p, base, inverse_cell);
       },
       particles, cells, grid, awake_rows(cells, grid), visit);
 }
