@@ -5,20 +5,14 @@
 #include <vector>
 
 #include "poreshock/core/memory.hpp"
+#include "support/sanitizer.hpp"
 
 namespace poreshock {
 namespace {
 
-// AddressSanitizer keeps what is freed, to see who still uses it.
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool allocator_of_the_sanitizer = true;
-#else
-constexpr bool allocator_of_the_sanitizer = false;
-#endif
-
 TEST(Memory, OfALargeBlockGoesBackAtOnceThoughAnotherLiesAboveIt) {
   constexpr std::int64_t block = std::int64_t{64} << 20, slack = std::int64_t{4} << 20;
-  if (allocator_of_the_sanitizer) GTEST_SKIP() << "the sanitizer keeps what is freed";
+  if (test::allocator_of_the_sanitizer) GTEST_SKIP() << "the sanitizer keeps what is freed";
   if (own_memory() == 0) GTEST_SKIP() << "the system does not say what a process holds";
   std::vector<char> low(block, 1), high(block, 1);
   const std::int64_t with_both = own_memory();

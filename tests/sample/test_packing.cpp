@@ -13,6 +13,7 @@
 #include "poreshock/morphology/minkowski.hpp"
 #include "sample/grains.hpp"
 #include "support/random_numbers.hpp"
+#include "support/sanitizer.hpp"
 
 namespace poreshock {
 namespace {
@@ -95,6 +96,7 @@ class Packing : public ::testing::Test {
 
 // First, while nothing else has taken memory.
 TEST_F(Packing, EachRankHoldsItsSlabOnly) {
+  if (test::allocator_of_the_sanitizer) GTEST_SKIP() << "the sanitizer keeps what is freed";
   const Scene scene = packing_scene(file());
   const LatticeRange own = own_layers(nz, world);
   release_freed_memory();
