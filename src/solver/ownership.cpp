@@ -226,10 +226,18 @@ void rebalance(Simulation<Dim>& sim) {
     for (std::size_t k = 0; k < since.size(); ++k) since[k] -= work.seconds[k];
     work.unit_seconds =
         measured_unit_seconds(work.done, since, work.unit_seconds, sim.communicator);
+    const std::vector<double> factors =
+        slab_factors(work.done, since, work.unit_seconds, sim.communicator);
     work.seconds = seconds;
     work.done = {};
     work.measured_step = sim.clock.step;
     weights = row_seconds(sim);
+    const std::vector<int>& starts = sim.grid->starts();
+    for (std::size_t r = 0; r < factors.size(); ++r) {
+      for (int row = starts[r]; row < starts[r + 1]; ++row) {
+        weights[static_cast<std::size_t>(row - sim.grid->shape().first)] *= factors[r];
+      }
+    }
     best = partition_rows(weights, size(sim.communicator), slab_limits(sim.grid->shape()));
   }
   std::vector<int> now = sim.grid->starts();

@@ -1,5 +1,6 @@
 #include "poreshock/solver/row_cost.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "poreshock/core/parallel.hpp"
@@ -47,6 +48,25 @@ PerWork<double> measured_unit_seconds(const PerWork<double>& done, const PerWork
     if (!(mean[k] > 0.0)) least[k] = before[k];
   }
   return least;
+}
+
+std::vector<double> slab_factors(const PerWork<double>& done, const PerWork<double>& seconds,
+                                 const PerWork<double>& unit_seconds, MPI_Comm communicator) {
+  constexpr auto kind = static_cast<std::size_t>(Work::particle);
+  constexpr double most = 1.5;
+  const double mine[2] = {done[kind], seconds[kind]};
+  std::vector<double> all(2 * static_cast<std::size_t>(size(communicator)));
+  check_mpi(MPI_Allgather(mine, 2, MPI_DOUBLE, all.data(), 2, MPI_DOUBLE, communicator),
+            "MPI_Allgather of the cost of particles");
+  double mean = 0.0;
+  for (std::size_t r = 0; r < all.size(); r += 2) mean += all[r] / size(communicator);
+  std::vector<double> factors;
+  for (std::size_t r = 0; r < all.size(); r += 2) {
+    const bool busy = all[r] > 0.0 && all[r] >= 0.5 * mean && unit_seconds[kind] > 0.0;
+    const double factor = busy ? all[r + 1] / all[r] / unit_seconds[kind] : 1.0;
+    factors.push_back(std::clamp(factor, 1.0 / most, most));
+  }
+  return factors;
 }
 
 std::vector<double> predicted_row_seconds(const std::vector<std::int64_t>& particles,

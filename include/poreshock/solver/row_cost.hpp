@@ -44,6 +44,12 @@ PerWork<double> work_seconds(const PhaseTable& phases);
 PerWork<double> measured_unit_seconds(const PerWork<double>& done, const PerWork<double>& seconds,
                                       const PerWork<double>& before, MPI_Comm communicator);
 
+/// Seconds of a computed particle on each rank over `unit_seconds`: behind a front particles cost
+/// more than before it. 1 where nothing is measured or a rank did less than half the mean and may
+/// have waited; from 2/3 to 3/2. Collective; the same on all ranks.
+std::vector<double> slab_factors(const PerWork<double>& done, const PerWork<double>& seconds,
+                                 const PerWork<double>& unit_seconds, MPI_Comm communicator);
+
 /// Predicted seconds of a step per row, from all its particles and contact nodes; before the first
 /// measurement in units of a particle.
 /// @param particles,contact_nodes entries per row; contact_nodes may be empty
