@@ -217,6 +217,8 @@ void rebalance(Simulation<Dim>& sim) {
   WorkMeter& work = sim.work;
   const std::int64_t steps = sim.clock.step - work.measured_step;
   if (size(sim.communicator) == 1 || steps == 0) return;
+  std::vector<int> now = sim.grid->starts();
+  for (int& row : now) row -= sim.grid->shape().first;
   std::vector<double> weights;
   std::vector<int> best;
   {
@@ -232,16 +234,13 @@ void rebalance(Simulation<Dim>& sim) {
     work.done = {};
     work.measured_step = sim.clock.step;
     weights = row_seconds(sim);
-    const std::vector<int>& starts = sim.grid->starts();
     for (std::size_t r = 0; r < factors.size(); ++r) {
-      for (int row = starts[r]; row < starts[r + 1]; ++row) {
-        weights[static_cast<std::size_t>(row - sim.grid->shape().first)] *= factors[r];
+      for (int row = now[r]; row < now[r + 1]; ++row) {
+        weights[static_cast<std::size_t>(row)] *= factors[r];
       }
     }
     best = partition_rows(weights, size(sim.communicator), slab_limits(sim.grid->shape()));
   }
-  std::vector<int> now = sim.grid->starts();
-  for (int& row : now) row -= sim.grid->shape().first;
   if (cutting_pays(heaviest(weights, now), heaviest(weights, best), steps, work)) {
     cut_slabs(best, sim);
     ++work.cuts;

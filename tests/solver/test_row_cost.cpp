@@ -9,6 +9,7 @@
 namespace poreshock {
 namespace {
 
+const MPI_Comm world = MPI_COMM_WORLD;
 constexpr auto particle = static_cast<std::size_t>(Work::particle);
 constexpr auto contact_node = static_cast<std::size_t>(Work::contact_node);
 constexpr auto recorded = static_cast<std::size_t>(Work::recorded_particle);
@@ -44,12 +45,11 @@ TEST(RowCost, SlabsWithContactBecomeNarrower) {
 
 /// Every unit takes 3 s; ranks with less to do wait for the busiest, inside their phases.
 TEST(RowCost, WaitingIsNotWork) {
-  const MPI_Comm world = PETSC_COMM_WORLD;
   PerWork<double> done{}, seconds{}, before{};
-  done[particle] = 10.0 * (1 + rank(MPI_COMM_WORLD));
-  seconds[particle] = 30.0 * size(MPI_COMM_WORLD);
+  done[particle] = 10.0 * (1 + rank(world));
+  seconds[particle] = 30.0 * size(world);
   before[contact_node] = 7.0;
-  const PerWork<double> unit = measured_unit_seconds(done, seconds, before, MPI_COMM_WORLD);
+  const PerWork<double> unit = measured_unit_seconds(done, seconds, before, world);
   EXPECT_EQ(unit[particle], 3.0);
   EXPECT_EQ(unit[contact_node], 7.0);
   EXPECT_EQ(unit[recorded], 0.0);
@@ -57,20 +57,20 @@ TEST(RowCost, WaitingIsNotWork) {
 
 TEST(RowCost, ASlabWithDearParticlesIsHeavier) {
   // Every rank did the same; the last took a quarter longer. A rank that did little counts as 1.
-  const bool last = rank(MPI_COMM_WORLD) == size(MPI_COMM_WORLD) - 1;
+  const bool last = rank(world) == size(world) - 1;
   const PerWork<double> unit = {2e-8, 0.0, 0.0}, done = {1e6, 0.0, 0.0};
   const PerWork<double> seconds = {last ? 2.5e-2 : 2e-2, 0.0, 0.0};
-  const auto factors = slab_factors(done, seconds, unit, MPI_COMM_WORLD);
-  ASSERT_EQ(std::ssize(factors), size(MPI_COMM_WORLD));
+  const auto factors = slab_factors(done, seconds, unit, world);
+  ASSERT_EQ(std::ssize(factors), size(world));
   for (std::size_t r = 0; r + 1 < factors.size(); ++r) EXPECT_DOUBLE_EQ(factors[r], 1.0);
   EXPECT_DOUBLE_EQ(factors.back(), 1.25);
-  for (const double x : slab_factors({}, {}, {}, MPI_COMM_WORLD)) EXPECT_EQ(x, 1.0);
-  if (size(MPI_COMM_WORLD) > 1) {
+  for (const double x : slab_factors({}, {}, {}, world)) EXPECT_EQ(x, 1.0);
+  if (size(world) > 1) {
     const PerWork<double> little = {last ? 1e5 : 1e6, 0.0, 0.0};
-    EXPECT_EQ(slab_factors(little, seconds, unit, MPI_COMM_WORLD).back(), 1.0);
+    EXPECT_EQ(slab_factors(little, seconds, unit, world).back(), 1.0);
   }
   const PerWork<double> slow = {1.0, 0.0, 0.0};
-  for (const double x : slab_factors(done, slow, unit, MPI_COMM_WORLD)) EXPECT_EQ(x, 1.5);
+  for (const double x : slab_factors(done, slow, unit, world)) EXPECT_EQ(x, 1.5);
 }
 
 TEST(RowCost, ACutPaysOnceItsPriceIsLost) {

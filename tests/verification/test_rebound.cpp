@@ -56,7 +56,7 @@ cv = 880
   const HistoryRow after = stock(sim);
   // What rounds is the stored energy, a part of m c^2.
   const double mass = std::accumulate(sim.particles.mass.begin(), sim.particles.mass.end(), 0.0);
-  EXPECT_LT(std::abs(unnamed_energy(before, after)), 5e-15 * mass * sound * sound);
+  EXPECT_LT(std::abs(unnamed_energy(before, after)), 3e-15 * mass * sound * sound);
   EXPECT_EQ(after.contact_heat, 0.0);
   std::vector<double> result;
   for (std::size_t n = 0; n < velocities.size(); ++n) {
