@@ -13,32 +13,22 @@ namespace poreshock {
 
 namespace {
 
-/// Numbers of one block: particles whose state is no longer one, those that met a guard, those
-/// whose energies have no small number of quanta, the quanta of the others, and the bits of the
-/// least limit.
-struct BlockSums {
-  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0;
-  /// Quanta, two's complement; they may wrap where large > 0 and are not used then.
-  std::uint64_t viscous = 0, compression = 0, unstored = 0;
+/// Numbers of one block: particles whose state is no longer one, those that met a guard, and the
+/// bits of the least limit.
+struct BlockCounts {
+  std::int64_t bad = 0, compressed = 0, slow = 0;
   std::int64_t least = std::bit_cast<std::int64_t>(std::numeric_limits<double>::infinity());
 };
 
 // Integers of 64 bits only, in variables of their own, and no jumps: then the loop vectorises
 // without leave to reorder sums of doubles.
-[[gnu::noinline]] BlockSums sum_block(const Material& m, const BlockResults& r, std::size_t count,
-                                      double cell, double inverse_quantum) {
+[[gnu::noinline]] BlockCounts count_block(const Material& m, const BlockResults& r,
+                                          std::size_t count, double cell) {
   using Flag = std::int64_t;
-  constexpr BlockSums none;
+  constexpr BlockCounts none;
   const double floor2 = sound_speed_floor * (m.eos.bulk / m.eos.density);
   const double guard = m.eos.guard;
-  std::int64_t bad = 0, compressed = 0, slow = 0, large = 0, least = none.least;
-  std::uint64_t viscous = 0, compression = 0, unstored = 0;
-  const auto fits = [](double scaled) { return Flag{scaled < 0x1p51} & Flag{scaled > -0x1p51}; };
-  const auto quanta = [](double scaled) {
-    // Adding it leaves a number below 2^51 rounded to even in the last bits.
-    constexpr double rounder = 0x1.8p52;
-    return std::bit_cast<std::uint64_t>(scaled + rounder) - std::bit_cast<std::uint64_t>(rounder);
-  };
+  std::int64_t bad = 0, compressed = 0, slow = 0, least = none.least;
   for (std::size_t k = 0; k < count; ++k) {
     // Written so that a NaN counts as bad. A particle that crosses more than a cell in a step could
     // jump over a whole slab.
@@ -51,37 +41,31 @@ struct BlockSums {
     // Bits of positive numbers are in their order.
     const std::int64_t limit = good != 0 ? std::bit_cast<std::int64_t>(r.limit[k]) : none.least;
     least = limit < least ? limit : least;
-    const double scaled[3] = {r.viscous[k] * inverse_quantum, r.compression[k] * inverse_quantum,
-                              r.unstored[k] * inverse_quantum};
-    large += 1 - (fits(scaled[0]) & fits(scaled[1]) & fits(scaled[2]));
-    viscous += quanta(scaled[0]);
-    compression += quanta(scaled[1]);
-    unstored += quanta(scaled[2]);
   }
-  return {bad, compressed, slow, large, viscous, compression, unstored, least};
+  return {bad, compressed, slow, least};
+}
+
+Int128 sum_of_block(const double* energies, std::size_t count, double inverse_quantum) {
+  Int128 sum = 0;
+  for (std::size_t k = 0; k < count; k += lane_count) {
+    const auto part = static_cast<int>(std::min<std::size_t>(lane_count, count - k));
+    sum += sum_of_quanta(*reinterpret_cast<const Lanes*>(energies + k), part, inverse_quantum);
+  }
+  return sum;
 }
 
 void reduce(const Material& m, const BlockResults& r, std::size_t count, double cell,
             double inverse_quantum, StressReport& report) {
-  const BlockSums s = sum_block(m, r, count, cell, inverse_quantum);
-  report.bad += s.bad;
-  report.compression_guard += s.compressed;
-  report.sound_speed_guard += s.slow;
-  report.dt_limit = std::min(report.dt_limit, std::bit_cast<double>(s.least));
-  for (std::size_t k = 0; k < count && std::isfinite(m.spall); ++k) {
-    report.failure_heat += quantise(r.released[k], inverse_quantum);
-  }
-  if (s.large == 0) {
-    report.viscous_heat += static_cast<std::int64_t>(s.viscous);
-    report.compression_work += static_cast<std::int64_t>(s.compression);
-    report.step_heat += static_cast<std::int64_t>(s.unstored);
-    return;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    report.viscous_heat += quantise(r.viscous[k], inverse_quantum);
-    report.compression_work += quantise(r.compression[k], inverse_quantum);
-    report.step_heat += quantise(r.unstored[k], inverse_quantum);
-  }
+  const BlockCounts c = count_block(m, r, count, cell);
+  report.bad += c.bad;
+  report.compression_guard += c.compressed;
+  report.sound_speed_guard += c.slow;
+  report.dt_limit = std::min(report.dt_limit, std::bit_cast<double>(c.least));
+  report.viscous_heat += sum_of_block(r.viscous, count, inverse_quantum);
+  report.compression_work += sum_of_block(r.compression, count, inverse_quantum);
+  report.step_heat += sum_of_block(r.unstored, count, inverse_quantum);
+  if (std::isfinite(m.spall))
+    report.failure_heat += sum_of_block(r.released, count, inverse_quantum);
 }
 
 // Flattened: the loop vectorises only when all it calls is inlined, and with so many variants the
