@@ -130,14 +130,6 @@ class Boade(unittest.TestCase):
         faster = measured.boade_at(COPPER, 350.0, 6464.0).speed / measured.boade_at(COPPER, 350.0).speed
         self.assertAlmostEqual(faster, 1.025, delta=0.002)
 
-    def test_density_is_that_of_what_met_the_front(self):
-        # The front is at 0.2 and 0.6 m, when it meets what began at 0.3 and 1 m.
-        records = SimpleNamespace(time=numpy.array([0.0, 1e-3, 4e-3]), height=numpy.array([0.25, 0.35, 0.95, 1.05]),
-                                  row={"solid_fraction": numpy.array([[0.1, 0.5, 0.7, 0.2], [1.0] * 4, [1.0] * 4])})
-        fit = SimpleNamespace(used=numpy.array([1, 2]), start=0.2 - 0.4 / 3.0, slope=0.4 / 3e-3)
-        setting = SimpleNamespace(velocity=100.0, material=SimpleNamespace(density=1000.0))
-        self.assertAlmostEqual(measured.crossed_density(records, setting, fit), 600.0)
-
     def test_samples_are_averaged(self):
         law = measured.boade_at(COPPER, 300.0, 6400.0)
         beds = [measured.Bed(SimpleNamespace(values=[law.speed * f, 300.0, 0.0, 0.5 * law.pressure, law.pressure, law.density],

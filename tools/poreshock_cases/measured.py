@@ -198,18 +198,9 @@ def boade_at(material, velocity, density=BOADE_DENSITY):
 class Bed:
     """What a run of packed grains says, its shock as `profiles.measure` has it."""
     shock: profiles.Shock
-    density: float  # kg/m^3 before the shock, of what the front crossed; the ends of a bed are looser
+    density: float  # kg/m^3 before the shock, of what the front crossed
     time: float  # s, of the last record
     lead: float  # m by which motion of half the precursor's velocity was ahead of the front then
-
-
-def crossed_density(records, setting, fit):
-    """Density before the shock of what the front crosses in the records of its fit, kg/m^3."""
-    times = records.time[fit.used[[0, -1]]]
-    # The material ahead falls: what meets the front at a height started higher.
-    low, high = fit.start + (fit.slope + setting.velocity) * times
-    inside = (records.height > low) & (records.height < high)
-    return float(numpy.mean(records.row["solid_fraction"][0][inside])) * setting.material.density
 
 
 def lead(records, velocity, least):
@@ -232,8 +223,8 @@ def read_bed(folder, velocity):
     """What the files of a bed say."""
     records, shock = profiles.read(folder), profiles.measure(folder)
     ahead = BOADE_PRECURSOR[0] / (BOADE_DENSITY * BOADE_PRECURSOR[1])
-    return Bed(shock, crossed_density(records, shock.setting, profiles.fit_front(records, shock.setting)),
-               float(records.time[-1]), lead(records, velocity, 0.5 * ahead))
+    return Bed(shock, (1.0 - shock.voids) * shock.setting.material.density, float(records.time[-1]),
+               lead(records, velocity, 0.5 * ahead))
 
 
 def powder_rows(velocities, beds):

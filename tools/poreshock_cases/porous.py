@@ -28,13 +28,13 @@ JUDGED_CELL = 5e-6  # m, the others show the trend
 
 
 def measured(run):
-    """One sample: FIGURES over those of the snow-plow shock of its own void fraction; STATE over those at the measured
+    """One sample: FIGURES over those of the snow-plow shock of what its front crosses; STATE over those at the measured
     Up; Up in m/s, the residual fluctuation in K, the space without particles in percent, and the drift."""
     scene = profiles.reader.read_scene(run.folder)
     setting, rows = profiles.setting_of(scene), profiles.read(run.folder)
     fit = profiles.fit_front(rows, setting)
     state = profiles.state_behind(rows, setting, fit)
-    fraction = profiles.void_fraction(rows, setting)
+    fraction = profiles.void_fraction(rows, setting, fit)
     start, moving = setting.material.T0, state["fluctuation"] / setting.material.cv
 
     def over(plow):

@@ -178,16 +178,16 @@ def state_behind(profiles, setting, fit):
     return State(len(windows), low, distance, NAMES, mean, spread)
 
 
-def void_fraction(profiles, setting):
-    """Void fraction of the sample as it was made, from the first record; the wanted one without it."""
+def void_fraction(profiles, setting, fit):
+    """Void fraction of what the front crosses in the records of its fit, as it was made; the wanted one without a first
+    record. The ends of a sample differ from its inside."""
     if profiles.time[0] > 0.0:
         return setting.void_fraction
-    solid = profiles.row["solid_fraction"][0]
-    if setting.follows:
-        # More of the sample lies above the window; its own bottom is looser than its middle.
-        made = solid[profiles.height < setting.height]
-        return max(0.0, 1.0 - float(made[len(made) // 4:].mean()))
-    return max(0.0, 1.0 - solid.sum() * setting.cell / setting.height)
+    # The material ahead falls: what meets the front at a height started higher. More than a window holds lies above it.
+    low, high = ((0.25 * setting.height, setting.height) if setting.follows else
+                 fit.start + (fit.slope + setting.velocity) * profiles.time[fit.used[[0, -1]]])
+    crossed = abs(profiles.height - 0.5 * (low + high)) < 0.5 * (high - low + setting.cell)
+    return max(0.0, 1.0 - float(numpy.mean(profiles.row["solid_fraction"][0][crossed])))
 
 
 def wall_stress(folder, scene, profiles, fit):
@@ -235,7 +235,7 @@ QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e
 class Shock:
     """What was measured of the shock of a run, in the order of QUANTITIES, SI units, NaN where it is not known."""
     setting: Setting
-    voids: float  # void fraction of the sample as it was made
+    voids: float  # void fraction of what the front crossed, as it was made
     values: tuple
     errors: tuple
     curves: tuple  # of `references`
@@ -246,7 +246,7 @@ def method(setting, profiles, fit, state, voids):
     """Sentences that say how the numbers of a table were measured."""
     used = front_path(profiles, setting)[fit.used]
     notes = [
-        f"Void fraction {voids:.4f}, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
+        f"Void fraction {voids:.4f} of what the front crosses, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
         f"Us: straight line through {len(used)} heights of the front from {1e3 * used[0]:.3f} to "
         f"{1e3 * used[-1]:.3f} mm above the wall ({1e9 * profiles.time[fit.used[0]]:.4g} to "
         f"{1e9 * profiles.time[fit.used[-1]]:.4g} ns), plus the velocity of the wall relative to the material "
@@ -275,7 +275,7 @@ def measure(folder):
     setting, profiles = setting_of(scene), read(folder)
     fit = fit_front(profiles, setting)
     state = state_behind(profiles, setting, fit)
-    voids = void_fraction(profiles, setting)
+    voids = void_fraction(profiles, setting, fit)
     spread = dict(zip(state.names, state.spread))
     measured = (fit.slope + setting.velocity, state["velocity"], state["stress"], state["momentum_flux"],
                 wall_stress(folder, scene, profiles, fit), state["density"], state["temperature"],
