@@ -147,8 +147,7 @@ int find_pairs(NodeGrains<Dim, Count> grains, const ContactSettings& settings,
   // Over the space of a node inside the domain: beyond a wall only a sliver of it is left.
   double space = 1.0;
   for (int k = 0; k < Dim; ++k) space *= settings.cell;
-  const double excess = (node.volume - settings.capacity) / space;
-  if (excess > 0.0) report.penetration = excess * settings.cell / faces.density(0.5);
+  report.excess = std::max(0.0, (node.volume - settings.capacity) / space);
   report.least_gap = std::numeric_limits<double>::infinity();
   int count = 0;
   for (int a = 0; a < static_cast<int>(grains.size()); ++a) {
@@ -234,7 +233,7 @@ void resolve(std::span<ContactNode<Dim>> nodes, const FaceTable& faces) {
   if (alone || nodes.front().settings.friction > 0.0) push();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     // Two grains part where the tie would pull their particles and there is room for what closes.
-    const bool has_room = alone && !(nodes[n].report.penetration > 0.0);
+    const bool has_room = alone && !(nodes[n].report.excess > 0.0);
     if (has_room) collisions[n].pairs = pushing(collisions[n].pairs);
     nodes[n].report.pairs = static_cast<int>(collisions[n].pairs.size());
     if (collisions[n].pairs.empty()) continue;

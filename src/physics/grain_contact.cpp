@@ -11,6 +11,9 @@ namespace poreshock {
 
 namespace {
 
+/// Particles in one piece that is compressed fill a node up to this much too little or too much.
+constexpr double noise_of_filling = 0.01;
+
 /// Share of a node's space along one axis that lies inside the domain.
 double share_inside(int index, int count, bool periodic, double beyond) {
   if (periodic) return 1.0;
@@ -40,7 +43,7 @@ double momentum_residual(std::span<NodeGrain<Dim>> grains, const Entry* entries)
 
 /// Counts what happened at a node.
 template <int Dim>
-void book(const ContactNode<Dim>& node, const Entry* entries, NodeLedger& ledger,
+void book(const ContactNode<Dim>& node, const Entry* entries, double face, NodeLedger& ledger,
           ContactSummary& summary) {
   const ContactReport& report = node.report;
   ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
@@ -48,12 +51,14 @@ void book(const ContactNode<Dim>& node, const Entry* entries, NodeLedger& ledger
   if (report.pairs > 0) ++summary.nodes;
   if (node.grains.size() > 2) ++summary.crowded_nodes;
   summary.least_gap = std::min(summary.least_gap, report.least_gap);
-  summary.penetration = std::max(summary.penetration, report.penetration);
+  // As wide as a gap that lacks this volume.
+  const double penetration = report.excess * node.settings.cell / face;
+  summary.penetration = std::max(summary.penetration, penetration);
   summary.residual = std::max(summary.residual, momentum_residual<Dim>(node.grains, entries));
 }
 
 template <int Dim>
-void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
+void write_grain(const NodeGrain<Dim>& grain, double overfill, Lanes& motion, Lanes& surface) {
   using Motion = MotionLane<Dim>;
   using Collision = CollisionLane<Dim>;
   for (int a = 0; a < Dim; ++a) {
@@ -63,6 +68,7 @@ void write_grain(const NodeGrain<Dim>& grain, Lanes& motion, Lanes& surface) {
     motion[Motion::end_velocity + a] = grain.end[a];
   }
   motion[Motion::heat] += grain.heat / grain.mass;
+  if constexpr (shows_overfill<Dim>) motion[Motion::overfill] = overfill;
 }
 
 /// True where no side of the domain takes space from a node or moves it.
@@ -113,9 +119,13 @@ void collide_batch(const ContactGrids& grids, const FaceTable& faces, NodeBatch<
   const Entry* entry = batch.entries.data();
   for (std::size_t n = 0; n < batch.nodes.size(); ++n) {
     const ContactNode<Dim>& node = batch.nodes[n];
-    if (batch.rows[n] < grids.motion.last_row()) book<Dim>(node, entry, ledger, summary);
+    if (batch.rows[n] < grids.motion.last_row()) {
+      book<Dim>(node, entry, faces.density(0.5), ledger, summary);
+    }
+    const bool pushed = node.report.pairs > 0;
+    const double overfill = pushed ? std::max(0.0, node.report.excess - noise_of_filling) : 0.0;
     for (const NodeGrain<Dim>& grain : node.grains) {
-      write_grain<Dim>(grain, *entry->motion, *entry->surface);
+      write_grain<Dim>(grain, overfill, *entry->motion, *entry->surface);
       ++entry;
     }
   }

@@ -49,12 +49,14 @@ double lone_stiffness(const Transfer& transfer) {
 
 template <int Dim>
 ParticleMotion<Dim> particle_motion(double dt, const Simulation<Dim>& sim) {
-  return {dt,
-          lost_share(sim.scene.transfer, sim.sound_speed, sim.scene.domain.cell, dt),
-          grid_velocity<Dim>(sim.grid->shape()),
-          sim.scene.viscosity.limited,
-          sim.ledger.nodes.inverse_energy_quantum,
-          1e-16 * sim.sound_speed * sim.sound_speed};
+  return {
+      dt,
+      lost_share(sim.scene.transfer, sim.sound_speed, sim.scene.domain.cell, dt),
+      grid_velocity<Dim>(sim.grid->shape()),
+      sim.scene.viscosity.limited,
+      sim.ledger.nodes.inverse_energy_quantum,
+      1e-16 * sim.sound_speed * sim.sound_speed,
+      sim.grid->fields() > 1 ? squeezed_share(sim.sound_speed, sim.scene.domain.cell, dt) : 0.0};
 }
 
 /// Sorts particles, and gives the grid the nodes that those awake reach, in fields for grains.
@@ -112,7 +114,6 @@ StressSettings<Dim> stress_settings(const Simulation<Dim>& sim) {
 template <int Dim>
 void advance(Simulation<Dim>& sim, double dt) {
   const Transfer& transfer = sim.scene.transfer;
-  const ParticleMotion<Dim> motion = particle_motion(dt, sim);
   const StressSettings<Dim> settings = stress_settings(sim);
   Particles<Dim>& particles = sim.particles;
   NodeLedger& ledger = sim.ledger.nodes;
@@ -120,6 +121,7 @@ void advance(Simulation<Dim>& sim, double dt) {
   const auto in = [&](PhaseName name, auto&& run) { timed(sim.phases, name, run); };
 
   sort_awake(sim);
+  const ParticleMotion<Dim> motion = particle_motion(dt, sim);
   // Now density, energy and position belong together and the sort holds; the stress update at the
   // end sees the heat in the energy that pressure follows from.
   if (sim.heat) in(PhaseName::conduction, [&] { conduct(dt, sim); });

@@ -26,9 +26,10 @@ inline void take_report(const StepReport& report, double conduction_limit, Clock
   ledger.guards.negative_heat += report.transfer.negative;
   ledger.viscous_heat += report.stress.viscous_heat;
   ledger.compression_work += report.stress.compression_work;
-  ledger.step_heat += report.stress.step_heat;
+  // What squeezes particles is no heat, and the stress update meets it as work that is missing.
+  ledger.step_heat += report.stress.step_heat + report.transfer.squeezing;
   ledger.failure_heat += report.stress.failure_heat;
-  ledger.transfer_heat += report.transfer.heat;
+  ledger.transfer_heat += report.transfer.heat - report.transfer.squeezing;
   ledger.shortened += report.transfer.shortened;
 }
 

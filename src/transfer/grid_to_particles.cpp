@@ -129,6 +129,26 @@ inline void book_heat(const Lanes& heat, const GroupMoments<Dim, M>& m, const La
   report.heat += sum_of_quanta(mass * heat, group.count, motion.inverse_energy_quantum);
 }
 
+/// Compresses particles whose nodes grains overfill, as far as their heat pays for it; returns what
+/// it pays, J/kg.
+template <int Dim, Modes M>
+inline Lanes squeeze(const GroupMoments<Dim, M>& m, const Lanes& heat,
+                     const ParticleMotion<Dim>& motion, const Group& group,
+                     const Particles<Dim>& particles, StepData<Dim>& step) {
+  using Lane = MotionLane<Dim>;
+  const Lanes zero{};
+  const Lanes per_strain =
+      load(particles.pressure, group.particles) / load(particles.density, group.particles);
+  const Lanes work = per_strain * (motion.squeezed * m.value[Lane::overfill]);
+  const Lanes paid = larger(zero, where_less(heat, work, heat, work));
+  const Lanes strain = where_less(zero, paid, paid / per_strain, zero);
+  for (int a = 0; a < Dim; ++a) {
+    const Lanes rate = (1.0 / (Dim * motion.dt)) * strain;
+    store_ordered(m.gradient[a][Lane::end_velocity + a] - rate, group, step.gradient[a * Dim + a]);
+  }
+  return paid;
+}
+
 /// Moves the particles of a group.
 template <int Dim, Modes M, Keeps Kept, class Spline>
 inline void move_group(const GroupMoments<Dim, M>& m, double cell,
@@ -149,8 +169,16 @@ inline void move_group(const GroupMoments<Dim, M>& m, double cell,
       store_ordered(shares.quadratic, group, step.viscous_quadratic);
     }
   }
-  store_ordered(m.value[Lane::heat] + heat, group, step.heat);
-  book_heat<Dim, M>(heat, m, load(particles.mass, group.particles), motion, group, report);
+  const Lanes mass = load(particles.mass, group.particles);
+  const Lanes all_heat = m.value[Lane::heat] + heat;
+  store_ordered(all_heat, group, step.heat);
+  if constexpr (shows_overfill<Dim>) {
+    if (motion.squeezed > 0.0) {
+      const Lanes paid = squeeze<Dim, M>(m, all_heat, motion, group, particles, step);
+      report.squeezing += sum_of_quanta(mass * paid, group.count, motion.inverse_energy_quantum);
+    }
+  }
+  book_heat<Dim, M>(heat, m, mass, motion, group, report);
 }
 
 // Flattened: a call per value would cost more than the arithmetic.
@@ -198,6 +226,7 @@ template <int Dim, Modes M, Keeps Kept, class Spline>
 
 TransferReport& TransferReport::operator+=(const TransferReport& other) {
   heat += other.heat;
+  squeezing += other.squeezing;
   negative += other.negative;
   shortened += other.shortened;
   return *this;
@@ -206,6 +235,12 @@ TransferReport& TransferReport::operator+=(const TransferReport& other) {
 double lost_share(const Transfer& transfer, double sound_speed, double cell, double dt) {
   if (scheme_of(transfer.velocity).keeps == Keeps::nothing) return 1.0;
   const double x = transfer.damping * sound_speed * dt / cell;
+  return x / (1.0 + x);
+}
+
+double squeezed_share(double sound_speed, double cell, double dt) {
+  constexpr double rate = 0.5;
+  const double x = rate * sound_speed * dt / cell;
   return x / (1.0 + x);
 }
 

@@ -143,7 +143,8 @@ double gap_of_plates(const Simulation<2>& sim) {
 
 // A gap in one grain closes, rubs and opens as that between two grains does.
 TEST(SelfContact, ClosesSlidesAndReopensAsTwoGrainsDo) {
-  Simulation<2> two = start<2>(scene_of(plates_text(1)), MPI_COMM_SELF);
+  Simulation<2> two =
+      start<2>(scene_of(plates_text(1), {"transfer.gradient=slopes"}), MPI_COMM_SELF);
   Simulation<2> self = start<2>(scene_of(plates_text(0), {"contact.self=true"}), MPI_COMM_SELF);
   double least = 1.0;
   while (self.clock.time < 0.4e-6) {

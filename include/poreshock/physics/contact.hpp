@@ -13,7 +13,7 @@ namespace poreshock {
 struct ContactReport {
   int pairs = 0;               ///< pairs that pushed each other
   double least_gap = 0.0;      ///< m, of all pairs; infinite without a pair
-  double penetration = 0.0;    ///< m, by which grains overfill the node
+  double excess = 0.0;         ///< volume by which grains overfill the node, over that of a cell
   double friction_heat = 0.0;  ///< J >= 0
   double impact_heat = 0.0;    ///< J, of normal impulses beside a wall
 };

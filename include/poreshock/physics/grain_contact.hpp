@@ -35,13 +35,13 @@ double node_capacity(const GridShape& shape, const Transfer& transfer, int row, 
 /// after row. Not collective.
 std::vector<NodePlace> shared_nodes(const SlabGrid& motion, int mass_lane);
 
-/// Lets the grains of all shared nodes collide: velocities and the heat lane change, and
-/// SurfaceLane gives way to CollisionLane there. Before: motion and surfaces complete, periodic
-/// images not yet filled. The same happens on every rank that holds a node. Fields are taken in the
-/// order of their masses and velocities, so that the numbers of the fields do not matter.
-/// settings.capacity and mirrored are set here. `points`: the particles around the nodes, for
-/// normals from the planes that part them; without any they come from the gradients. Not
-/// collective.
+/// Lets the grains of all shared nodes collide: velocities and the heat lane change, the lane of
+/// what they overfill is set, and SurfaceLane gives way to CollisionLane there. Before: motion and
+/// surfaces complete, periodic images not yet filled. The same happens on every rank that holds a
+/// node. Fields are taken in the order of their masses and velocities, so that the numbers of the
+/// fields do not matter. settings.capacity and mirrored are set here. `points`: the particles
+/// around the nodes, for normals from the planes that part them; without any they come from the
+/// gradients. Not collective.
 template <int Dim>
 ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodePlace>& shared,
                               const Scene& scene, const ContactSettings& settings,

@@ -1,6 +1,8 @@
 #pragma once
 // Meaning of the eight numbers of a node, before and after the grid update.
 
+#include "poreshock/core/lanes.hpp"
+
 namespace poreshock {
 
 /// Nodal sums, from particles_to_grid to integrate_momentum.
@@ -21,7 +23,12 @@ struct MotionLane {
   static constexpr int mass = 2 * Dim + 1;    ///< until prepare_gather
   static constexpr int kinetic =
       2 * Dim + 1;  ///< J/kg, its part of the heat of the transfer, after
+  /// Volume by which grains overfill the node, over that of a cell; 3-D has no lane left for it.
+  static constexpr int overfill = 2 * Dim + 2;
 };
+
+template <int Dim>
+inline constexpr bool shows_overfill = MotionLane<Dim>::overfill < lane_count;
 
 /// Surface of the grain of one velocity field at a node, for contact.
 template <int Dim>
