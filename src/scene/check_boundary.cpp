@@ -2,7 +2,6 @@
 #include <string>
 
 #include "check_scene.hpp"
-#include "dataset_names.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
@@ -16,7 +15,7 @@ void check_behind(const Scene& scene, const Side& side, const std::string& path,
   } else if (std::none_of(scene.materials.begin(), scene.materials.end(),
                           [&](const MaterialParameters& m) { return m.name == side.behind; })) {
     add_problem(path, found + "the name of a [[material]]", report);
-  } else if (scene.sample.kind == SampleKind::none || may_have_contact(scene)) {
+  } else if (scene.sample.kind == SampleKind::none || scene.contact.self || has_grains(scene)) {
     add_problem(path, found + "only behind a [sample] of one grain, to whose ends it is bonded",
                 report);
   }

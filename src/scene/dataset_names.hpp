@@ -25,15 +25,6 @@ inline const std::vector<std::string> particle_datasets{"id",
                                                         "internal_energy",
                                                         "kinetic_energy"};
 
-/// True when there may be several velocity fields: grains, or self-contact.
-inline bool may_have_contact(const Scene& scene) {
-  if (scene.contact.self || makes_grains(scene.sample)) return true;
-  if (scene.sample.islands == Islands::grains) return true;
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
-    return body.grain != (scene.sample.kind == SampleKind::none ? scene.bodies.front().grain : 0);
-  });
-}
-
 /// The particle datasets of a scene: the common ones, then the other columns that are shown.
 inline std::vector<std::string> datasets_of(const Scene& scene) {
   std::vector<std::string> names = particle_datasets;
@@ -46,7 +37,8 @@ inline std::vector<std::string> datasets_of(const Scene& scene) {
       },
       particles);
   if (can_melt(scene)) names.push_back("molten");
-  if (may_have_contact(scene)) names.push_back("colour");
+  // With several velocity fields.
+  if (scene.contact.self || has_grains(scene)) names.push_back("colour");
   return names;
 }
 

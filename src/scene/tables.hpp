@@ -213,7 +213,7 @@ void visit_scene(Visitor& visitor, Scene& scene) {
   visitor.table("body_force", {"Body force."},
                 [&](auto& inner) { visit_body_force(inner, scene); });
   visitor.table("transfer", {"Transfer between particles and grid."},
-                [&](auto& inner) { visit_transfer(inner, scene.transfer); });
+                [&](auto& inner) { visit_transfer(inner, scene); });
   visitor.table("viscosity", {"Artificial viscosity, its coefficients."},
                 [&](auto& inner) { visit_viscosity(inner, scene); });
   visitor.table("conduction", {"Conduction of heat."},

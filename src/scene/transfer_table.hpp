@@ -1,13 +1,15 @@
 #pragma once
 // The keys of [transfer]; their defaults depend on each other.
 
+#include "poreshock/scene/scene.hpp"
 #include "poreshock/scene/transfer_scheme.hpp"
 #include "rules.hpp"
 
 namespace poreshock::scene_text {
 
 template <typename Visitor>
-void visit_transfer(Visitor& visitor, Transfer& transfer) {
+void visit_transfer(Visitor& visitor, Scene& scene) {
+  Transfer& transfer = scene.transfer;
   Names<ShapeFunction> shapes;
   for (const ShapeFunction shape : shape_functions) {
     shapes.emplace_back(of_shape(shape, [](const auto& s) { return s.name; }), shape);
@@ -29,11 +31,18 @@ void visit_transfer(Visitor& visitor, Transfer& transfer) {
   visitor.fallback(transfer.velocity,
                    suits(best, transfer.shape) ? best.velocity : VelocityTransfer::flip);
   choice(visitor, "velocity", transfer.velocity, transfers, {"transfer of velocity"});
+  // Beside other grains forces on nodes of little mass should be small.
+  const bool spreads = of_shape(transfer.shape, []<class S>(const S&) { return has_inertia<S>; });
+  visitor.fallback(transfer.gradient,
+                   has_grains(scene) && spreads ? Gradient::moments : Gradient::slopes);
   const Names<Gradient> gradients{{"slopes", Gradient::slopes}, {"moments", Gradient::moments}};
   choice(visitor, "gradient", transfer.gradient, gradients,
          {"of the velocity, and of the stress likewise, by slopes of the shape function or by its "
           "first moments: the latter keeps more of the speed of grains that meet"});
-  visitor.fallback(transfer.damping, scheme_of(transfer.velocity).damping);
+  // What a tie withholds from the particles decays with their residual. Where grains meet
+  // everywhere that should be slow; in plates it keeps the noise of traces small.
+  visitor.fallback(transfer.damping,
+                   scheme_of(transfer.velocity).damping / (makes_grains(scene.sample) ? 5.0 : 1.0));
   visitor.number("damping", transfer.damping,
                  {{.low = 0.0, .high = 10.0},
                   "",

@@ -1,6 +1,7 @@
 // Keys of grains, contact and friction of walls: what is refused, and the way back through text.
 #include <gtest/gtest.h>
 
+#include "parsed_scene.hpp"
 #include "scene_text.hpp"
 
 namespace poreshock {
@@ -20,6 +21,29 @@ TEST(GrainKeys, PackedGrainsNeedASizeAndAPossibleVoidFraction) {
             "s.toml:14:1: sample.porosity: missing, give a void fraction from 0.14 to 0.95 with "
             "kind = \"packed_grains\": denser grains are jammed; use \"voronoi_grains\"");
   EXPECT_EQ(grain_problems("kind = \"packed_grains\"\ngrain_radius = 2e-5\nporosity = 0.3\n"), "");
+}
+
+/// The transfer of a scene with these lines for its sample.
+Transfer transfer_with(const std::string& sample, const std::string& more = {}) {
+  std::string text = small_scene();
+  const std::string kind = "kind = \"solid\"\n";
+  text.replace(text.find(kind), kind.size(), sample);
+  return parse(text + more).transfer;
+}
+
+TEST(GrainKeys, GrainsHaveATransferOfTheirOwn) {
+  const std::string solid = "kind = \"solid\"\n";
+  const std::string packed = "kind = \"packed_grains\"\ngrain_radius = 2e-5\nporosity = 0.3\n";
+  const std::string disc = "\n[[body]]\nshape = \"disc\"\ncenter = [5e-5, 1e-4]\nradius = 1e-5\n";
+  EXPECT_EQ(transfer_with(solid).gradient, Gradient::slopes);
+  EXPECT_EQ(transfer_with(solid).damping, 0.05);
+  EXPECT_EQ(transfer_with(solid, disc).gradient, Gradient::slopes);
+  EXPECT_EQ(transfer_with(solid, disc + "grain = 1\n").gradient, Gradient::moments);
+  EXPECT_EQ(transfer_with(solid, disc + "grain = 1\n").damping, 0.05);
+  EXPECT_EQ(transfer_with(packed).gradient, Gradient::moments);
+  EXPECT_EQ(transfer_with(packed).damping, 0.01);
+  const std::string hats = "\n[transfer]\nshape = \"linear\"\n";
+  EXPECT_EQ(transfer_with(packed, hats).gradient, Gradient::slopes);
 }
 
 TEST(GrainKeys, VoronoiGrainsTakeTheirGapFromThePorosity) {

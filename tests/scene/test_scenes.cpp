@@ -38,6 +38,7 @@ TEST(Scenes, EveryKeyOf2D) {
   EXPECT_EQ(scene.transfer, (Transfer{.shape = ShapeFunction::quadratic,
                                       .velocity = VelocityTransfer::flip,
                                       .damping = 0.3,
+                                      .gradient = Gradient::moments,
                                       .half_length = 0.5 / 3.0}));
   EXPECT_EQ(scene.viscosity, (Viscosity{.linear = 0.4, .quadratic = 1.5, .limited = false}));
   EXPECT_EQ(scene.time.cfl, 0.3);

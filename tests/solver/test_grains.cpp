@@ -110,7 +110,8 @@ double expect_one_field(const Simulation<2>& one, const Simulation<2>& two) {
 // as nothing but the new nodal velocity moves particles then; in paper mode, as pressure does not
 // know where within a node heat arises.
 TEST(Grains, StickAsOneField) {
-  const std::vector<std::string> scheme = {"transfer.velocity=pic", "thermal=paper"};
+  const std::vector<std::string> scheme = {"transfer.velocity=pic", "transfer.gradient=slopes",
+                                           "thermal=paper"};
   Simulation<2> one = start<2>(scene_of(stacked_text(0, 0.0), scheme), MPI_COMM_SELF);
   Simulation<2> two = start<2>(scene_of(stacked_text(1, 0.0), scheme), MPI_COMM_SELF);
   ASSERT_EQ(one.grain_fields.grains, 0);
@@ -144,8 +145,9 @@ void sort_by_id(Particles<2>& particles) {
 
 // Grains too far apart to share a node have one colour, and then the bits are those of one field.
 TEST(Grains, FarApartAreOneFieldBitForBit) {
-  Simulation<2> one = start<2>(scene_of(stacked_text(0, 80.0)), MPI_COMM_SELF);
-  Simulation<2> two = start<2>(scene_of(stacked_text(1, 80.0)), MPI_COMM_SELF);
+  const std::vector<std::string> scheme = {"transfer.gradient=moments"};
+  Simulation<2> one = start<2>(scene_of(stacked_text(0, 80.0), scheme), MPI_COMM_SELF);
+  Simulation<2> two = start<2>(scene_of(stacked_text(1, 80.0), scheme), MPI_COMM_SELF);
   advance_to(60, 0, one);
   advance_to(60, 0, two);
   EXPECT_EQ(two.grid->fields(), 1);

@@ -78,30 +78,30 @@ double rebound(int cells, const std::vector<std::string>& scheme) {
 }
 
 TEST(ElasticDiscs, KeepTheirSpeed) {
-  verify_at_least("rebound", "speed_10", rebound(10, {}), 0.80);
-  verify_at_least("rebound", "speed_20", rebound(20, {}), 0.92);
-  verify_at_least("rebound", "speed_40", rebound(40, {}), 0.97);
-  const char* moments = "transfer.gradient=moments";
-  verify_at_least("rebound", "speed_10_moments", rebound(10, {moments}), 0.84);
-  verify_at_least("rebound", "speed_20_moments", rebound(20, {moments}), 0.95);
+  verify_at_least("rebound", "speed_10", rebound(10, {}), 0.86);
+  verify_at_least("rebound", "speed_20", rebound(20, {}), 0.95);
+  verify_at_least("rebound", "speed_40", rebound(40, {}), 0.98);
+  const char* slopes = "transfer.gradient=slopes";
+  verify_at_least("rebound", "speed_10_slopes", rebound(10, {slopes}), 0.82);
   const char* polyflip = "transfer.velocity=polyflip";
-  verify_at_least("rebound", "speed_10_polyflip", rebound(10, {polyflip}), 0.82);
+  verify_at_least("rebound", "speed_10_polyflip", rebound(10, {polyflip}), 0.88);
 }
 
 TEST(ElasticDiscs, KeepTheirSpeedWhateverTheStep) {
   double least = 1.0, most = 0.0;
-  for (const char* cfl : {"0.25", "0.5", "0.8", "1.0"}) {
+  for (const char* cfl : {"0.125", "0.25", "0.5", "0.8", "1.0"}) {
     const double speed = rebound(10, {std::string("time.cfl=") + cfl});
     least = std::min(least, speed);
     most = std::max(most, speed);
   }
-  verify_at_most("rebound", "spread_over_steps", most / least - 1.0, 0.02);
+  verify_at_least("rebound", "speed_10_whatever_the_step", least, 0.85);
+  verify_known_shortfall("rebound", "spread_over_steps", most / least - 1.0, 0.02, 0.026);
 }
 
 TEST(ElasticDiscs, KeepLessOfALowSpeed) {
   // The slower, the smaller is the place of contact, beside the same cells, and the longer they
   // touch.
-  for (const auto& [speed, least] : {std::pair{5.0, 0.56}, {25.0, 0.71}}) {
+  for (const auto& [speed, least] : {std::pair{5.0, 0.60}, {25.0, 0.76}}) {
     const auto v = collide(10, 1.0, {speed, -speed}, 0.5e-5 / speed + 3.0 * collision_time(10), {});
     const std::string figure = "speed_10_at_" + digits(2.0 * speed);
     verify_at_least("rebound", figure, 0.5 * (v[1] - v[0]) / speed, least);
@@ -114,7 +114,7 @@ TEST(ElasticDiscs, PassTheirMotionAlongARow) {
   const double end = 4.0 * (gap * 1e-5 / slowest + collision_time(10));
   const auto v = collide(10, gap, {speed, 0.0, 0.0, 0.0, 0.0}, end, {});
   EXPECT_NEAR(std::accumulate(v.begin(), v.end(), 0.0), speed, 1e-11 * speed);
-  verify_at_least("rebound", "speed_of_fifth", v[4] / speed, 0.52);
+  verify_at_least("rebound", "speed_of_fifth", v[4] / speed, 0.63);
 }
 
 }  // namespace

@@ -145,8 +145,11 @@ KNOWN = {
     ("vortex_aflip_0.2", "return_displacement_error_160"):
         "Transfers that keep the velocity of a particle are further off than those that keep nothing; the error falls with "
         "the second order.",
-    ("porous Hugoniot, void fraction 0.46, 1100 m/s, 5 um, 4 samples", "Us"): GAPS,
+    ("porous Hugoniot, void fraction 0.3, 1100 m/s, 5 um, 4 samples", "Us"): GAPS,
     ("porous Hugoniot, void fraction 0.46, 1100 m/s, 2.5 um, one sample", "P behind the front"): ONE,
+} | {
+    ("porous Hugoniot, void fraction 0.46, 1100 m/s, 5 um, 4 samples", figure): GAPS
+    for figure in ("Us", "P at the wall", "P behind the front")
 } | {(case, figure): LIMITERS for case, figures in {
     "invariance_aflip": ("mirror_100", "shift_100")}.items() for figure in figures} | {
         (f"porous Hugoniot, void fraction {voids:g}, 1100 m/s, 5 um, 4 samples", figure): SOUND

@@ -21,7 +21,7 @@ BARS = {"Us": 0.02, "P at the wall": 0.05, "P behind the front": 0.05, "rise of 
         "rise of mean T + fluctuation / c_v": 0.04}
 BED_SEEDS = (1, 2, 3, 4, 5, 6)
 BED_END = 280e-9  # s, the front is then in the upper third of the bed
-BED_BARS = dict.fromkeys(("Us", "P at the wall", "P behind the front", FLUX), 0.03)
+BED_BARS = {"Us": 0.01, "P at the wall": 0.01, "P behind the front": 0.03, FLUX: 0.02}
 COLLAPSE_CELLS = (10e-6, 5e-6, 2.5e-6)  # m
 FINE_CELL = 2.5e-6  # m
 JUDGED_CELL = 5e-6  # m, the others show the trend

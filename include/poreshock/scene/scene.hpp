@@ -249,6 +249,14 @@ inline bool makes_grains(const Sample& sample) {
          (sample.kind == SampleKind::image && sample.regions == Regions::grains);
 }
 
+/// True when there may be several grains.
+inline bool has_grains(const Scene& scene) {
+  if (makes_grains(scene.sample) || scene.sample.islands == Islands::grains) return true;
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    return body.grain != (scene.sample.kind == SampleKind::none ? scene.bodies.front().grain : 0);
+  });
+}
+
 /// True when waves leave the sample into material behind one of its ends.
 inline bool has_ends(const Scene& scene) {
   return !scene.boundary.low.behind.empty() || !scene.boundary.high.behind.empty();
