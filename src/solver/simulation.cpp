@@ -49,14 +49,14 @@ double lone_stiffness(const Transfer& transfer) {
 
 template <int Dim>
 ParticleMotion<Dim> particle_motion(double dt, const Simulation<Dim>& sim) {
-  return {
-      dt,
-      lost_share(sim.scene.transfer, sim.sound_speed, sim.scene.domain.cell, dt),
-      grid_velocity<Dim>(sim.grid->shape()),
-      sim.scene.viscosity.limited,
-      sim.ledger.nodes.inverse_energy_quantum,
-      1e-16 * sim.sound_speed * sim.sound_speed,
-      sim.grid->fields() > 1 ? squeezed_share(sim.sound_speed, sim.scene.domain.cell, dt) : 0.0};
+  return {dt,
+          lost_share(sim.scene.transfer, sim.sound_speed, sim.scene.domain.cell, dt),
+          grid_velocity<Dim>(sim.grid->shape()),
+          sim.scene.viscosity.limited,
+          sim.ledger.nodes.inverse_energy_quantum,
+          1e-16 * sim.sound_speed * sim.sound_speed,
+          sim.grid->fields() > 1 ? squeezed_share(sim.sound_speed, sim.scene.domain.cell, dt) : 0.0,
+          sim.sound_speed * sim.sound_speed};
 }
 
 /// Sorts particles, and gives the grid the nodes that those awake reach, in fields for grains.

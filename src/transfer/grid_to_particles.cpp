@@ -137,11 +137,16 @@ inline Lanes squeeze(const GroupMoments<Dim, M>& m, const Lanes& heat,
                      const Particles<Dim>& particles, StepData<Dim>& step) {
   using Lane = MotionLane<Dim>;
   const Lanes zero{};
-  const Lanes per_strain =
+  // Work of a strain s: (p/rho + c^2 s/2) s.
+  const Lanes start =
       load(particles.pressure, group.particles) / load(particles.density, group.particles);
-  const Lanes work = per_strain * (motion.squeezed * m.value[Lane::overfill]);
-  const Lanes paid = larger(zero, where_less(heat, work, heat, work));
-  const Lanes strain = where_less(zero, paid, paid / per_strain, zero);
+  const Lanes purse = larger(zero, heat);
+  const Lanes affordable =
+      (2.0 * purse) / (start + square_root(start * start + (2.0 * motion.stiffness) * purse));
+  const Lanes wanted = motion.squeezed * m.value[Lane::overfill];
+  const Lanes least = where_less(affordable, wanted, affordable, wanted);
+  const Lanes strain = where_less(zero, start, least, zero);
+  const Lanes paid = (start + (0.5 * motion.stiffness) * strain) * strain;
   for (int a = 0; a < Dim; ++a) {
     const Lanes rate = (1.0 / (Dim * motion.dt)) * strain;
     store_ordered(m.gradient[a][Lane::end_velocity + a] - rate, group, step.gradient[a * Dim + a]);

@@ -21,7 +21,7 @@ using test::set_motion;
 using test::Slab;
 using test::world;
 
-constexpr double dt = 2e-9, tolerance = 1e-12;
+constexpr double dt = 2e-9, tolerance = 1e-12, stiffness = 5000.0 * 5000.0;
 
 double excess_of(int node) {
   reference::Random random{static_cast<std::uint64_t>(node)};
@@ -60,6 +60,7 @@ void compare(const Choice& choice, double squeezed, Payers& payers) {
   ParticleMotion<2> how;
   how.dt = dt;
   how.squeezed = squeezed;
+  how.stiffness = stiffness;
   how.inverse_energy_quantum = 0x1p60;
   set_excess(*slab.grid);
   prepare_gather<2>(how.lost, *slab.grid);
@@ -73,16 +74,18 @@ void compare(const Choice& choice, double squeezed, Payers& payers) {
                                                          choice.velocity, how.lost, dt);
     const double heat = expected.node_heat + expected.lost;
     EXPECT_NEAR(slab.step.heat[local], heat, tolerance * 1e6);
-    const double per_strain = cloud.particles.pressure[p] / cloud.particles.density[p];
+    const double start = cloud.particles.pressure[p] / cloud.particles.density[p];
     const int order = reference::kind_of(choice.velocity).order;
     const double wanted = squeezed * overfill_of(cloud, order, p);
-    const double strain = per_strain > 0.0 ? std::min(wanted, heat / per_strain) : 0.0;
+    // (p/rho + c^2 s/2) s = heat
+    const double root = std::sqrt(start * start + 2.0 * stiffness * heat);
+    const double strain = start > 0.0 ? std::min(wanted, (root - start) / stiffness) : 0.0;
     for (int a = 0; a < 2; ++a) {
       EXPECT_NEAR(slab.step.gradient[3 * a][local], expected.gradient(a, a) - strain / (2.0 * dt),
                   tolerance / dt);
       EXPECT_NEAR(slab.step.rate[a][local], expected.middle_rate(a, a), tolerance / dt);
     }
-    squeezing += cloud.particles.mass[p] * per_strain * strain;
+    squeezing += cloud.particles.mass[p] * (start + 0.5 * stiffness * strain) * strain;
     largest += cloud.particles.mass[p] * heat;
     if (strain > 0.0) ++(strain < wanted ? payers.poor : payers.rich);
   }

@@ -20,6 +20,7 @@ struct ParticleMotion {
   double least_heat = 0.0;  ///< J/kg; less is rounding, which shortens nothing
   /// Share of what grains overfill that the step takes, of squeezed_share; 0 with one field.
   double squeezed = 0.0;
+  double stiffness = 0.0;  ///< J/kg, square of the sound speed: a strain adds it to p/rho
 };
 
 /// What the transfer of a step did, on this rank.
