@@ -169,6 +169,12 @@ class Measuring(unittest.TestCase):
         self.assertEqual(measured[0][1], rows[0][1])
         self.assertEqual([row[5] for row in measured], [row[5] for row in rows])
         self.assertIn("The domain follows the front", notes[-1])
+        # Of a sample much higher than the window only what is in it is known.
+        scene.write_text(scene.read_text().replace("height = 1.8e-3", "height = 18e-3"))
+        self.assertEqual(profiles.setting_of(reader.read_scene(self.folder)).height, 18e-3)
+        measured, notes = self.table()
+        self.assertEqual([row[5] for row in measured], [row[5] for row in rows])
+        self.assertIn("Void fraction 0.3000", notes[0])
 
     def test_command(self):
         def call(*names):

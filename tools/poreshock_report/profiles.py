@@ -87,12 +87,10 @@ def setting_of(scene):
         chosen = scene["material"][names.index(sample.get("material", names[0]))]
         voids = sample["kind"] == "random_voids"
         return Setting(plate_exact.material_from_scene(chosen), len(size), scene["domain"]["cell"],
-                       scene["loading"]["velocity"] + low.get("velocity", 0.0),
-                       sample.get("height", size[-1]),
+                       scene["loading"]["velocity"] + low.get("velocity", 0.0), sample.get("height", size[-1]),
                        2.0 * sample.get("void_radius", 0.0) if voids else 0.0,
                        sample.get("porosity", 0.0) if voids else 0.0, str(scene.get("thermal")),
-                       low.get("velocity", 0.0), reader.follows_front(scene),
-                       chosen.get("strength", "linear") == "linear")
+                       low.get("velocity", 0.0), reader.follows_front(scene), chosen.get("strength", "linear") == "linear")
     except (KeyError, ValueError) as error:
         raise reader.Missing(f"scene.toml does not describe the shock: {error}") from None
 
@@ -179,15 +177,17 @@ def state_behind(profiles, setting, fit):
 
 
 def void_fraction(profiles, setting, fit):
-    """Void fraction of what the front crosses in the records of its fit, as it was made; the wanted one without a first
-    record. The ends of a sample differ from its inside."""
+    """Void fraction of what the front crosses, as it was made; the wanted one without a first record."""
     if profiles.time[0] > 0.0:
         return setting.void_fraction
-    # The material ahead falls: what meets the front at a height started higher. More than a window holds lies above it.
-    low, high = ((0.25 * setting.height, setting.height) if setting.follows else
-                 fit.start + (fit.slope + setting.velocity) * profiles.time[fit.used[[0, -1]]])
+    solid = profiles.row["solid_fraction"][0]
+    if setting.follows:  # more of the sample lies above the window
+        made = solid[profiles.height < setting.height]
+        return max(0.0, 1.0 - float(made[len(made) // 4:].mean()))
+    # The material ahead falls: what meets the front at a height started higher.
+    low, high = fit.start + (fit.slope + setting.velocity) * profiles.time[fit.used[[0, -1]]]
     crossed = abs(profiles.height - 0.5 * (low + high)) < 0.5 * (high - low + setting.cell)
-    return max(0.0, 1.0 - float(numpy.mean(profiles.row["solid_fraction"][0][crossed])))
+    return max(0.0, 1.0 - float(solid[crossed].mean()))
 
 
 def wall_stress(folder, scene, profiles, fit):
@@ -227,8 +227,7 @@ def references(setting, voids):
 HEAD = ("quantity", "measured", "+-", "solid", "error", "snow-plow", "error", "P-alpha", "error")
 QUANTITIES = (("Us [m/s]", 1.0, ".1f"), ("Up [m/s]", 1.0, ".1f"), ("P [GPa]", 1e9, ".4f"),
               ("momentum flux [GPa]", 1e9, ".4f"), ("P at the wall [GPa]", 1e9, ".4f"),
-              ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"),
-              ("T + fluctuation / c_v [K]", 1.0, ".1f"))
+              ("rho [kg/m3]", 1.0, ".1f"), ("T [K]", 1.0, ".1f"), ("T + fluctuation / c_v [K]", 1.0, ".1f"))
 
 
 @dataclass(frozen=True)
@@ -246,7 +245,8 @@ def method(setting, profiles, fit, state, voids):
     """Sentences that say how the numbers of a table were measured."""
     used = front_path(profiles, setting)[fit.used]
     notes = [
-        f"Void fraction {voids:.4f} of what the front crosses, impact at {setting.velocity:g} m/s, cell {1e6 * setting.cell:.4g} um.",
+        f"Void fraction {voids:.4f} of what the front crosses, impact at {setting.velocity:g} m/s, "
+        f"cell {1e6 * setting.cell:.4g} um.",
         f"Us: straight line through {len(used)} heights of the front from {1e3 * used[0]:.3f} to "
         f"{1e3 * used[-1]:.3f} mm above the wall ({1e9 * profiles.time[fit.used[0]]:.4g} to "
         f"{1e9 * profiles.time[fit.used[-1]]:.4g} ns), plus the velocity of the wall relative to the material "
