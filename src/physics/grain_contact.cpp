@@ -41,9 +41,9 @@ double momentum_residual(std::span<NodeGrain<Dim>> grains, const Entry* entries)
   return worst;
 }
 
-/// Counts what happened at a node.
+/// Counts what happened at a node; the penetration is the volume over that of a cell here.
 template <int Dim>
-void book(const ContactNode<Dim>& node, const Entry* entries, double face, NodeLedger& ledger,
+void book(const ContactNode<Dim>& node, const Entry* entries, NodeLedger& ledger,
           ContactSummary& summary) {
   const ContactReport& report = node.report;
   ledger.contact_heat += quantise(report.impact_heat, ledger.inverse_energy_quantum);
@@ -51,9 +51,7 @@ void book(const ContactNode<Dim>& node, const Entry* entries, double face, NodeL
   if (report.pairs > 0) ++summary.nodes;
   if (node.grains.size() > 2) ++summary.crowded_nodes;
   summary.least_gap = std::min(summary.least_gap, report.least_gap);
-  // As wide as a gap that lacks this volume.
-  const double penetration = report.excess * node.settings.cell / face;
-  summary.penetration = std::max(summary.penetration, penetration);
+  summary.penetration = std::max(summary.penetration, report.excess);
   summary.residual = std::max(summary.residual, momentum_residual<Dim>(node.grains, entries));
 }
 
@@ -119,9 +117,7 @@ void collide_batch(const ContactGrids& grids, const FaceTable& faces, NodeBatch<
   const Entry* entry = batch.entries.data();
   for (std::size_t n = 0; n < batch.nodes.size(); ++n) {
     const ContactNode<Dim>& node = batch.nodes[n];
-    if (batch.rows[n] < grids.motion.last_row()) {
-      book<Dim>(node, entry, faces.density(0.5), ledger, summary);
-    }
+    if (batch.rows[n] < grids.motion.last_row()) book<Dim>(node, entry, ledger, summary);
     const bool pushed = node.report.pairs > 0;
     const double overfill = pushed ? std::max(0.0, node.report.excess - noise_of_filling) : 0.0;
     for (const NodeGrain<Dim>& grain : node.grains) {
@@ -197,6 +193,8 @@ ContactSummary collide_grains(const ContactGrids& grids, const std::vector<NodeP
   for (NodeBatch<Dim>& batch : batches) {
     collide_batch<Dim>(grids, faces, batch, ledger, summary);
   }
+  // As wide as a gap that lacks this volume.
+  summary.penetration = summary.penetration * shape.cell / faces.density(0.5);
   return summary;
 }
 

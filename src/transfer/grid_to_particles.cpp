@@ -227,6 +227,12 @@ template <int Dim, Modes M, Keeps Kept, class Spline>
   return report;
 }
 
+/// Share that decays in a step, at a rate by which it does while sound crosses a cell.
+double decayed_share(double rate, double sound_speed, double cell, double dt) {
+  const double x = rate * sound_speed * dt / cell;
+  return x / (1.0 + x);
+}
+
 }  // namespace
 
 TransferReport& TransferReport::operator+=(const TransferReport& other) {
@@ -239,14 +245,11 @@ TransferReport& TransferReport::operator+=(const TransferReport& other) {
 
 double lost_share(const Transfer& transfer, double sound_speed, double cell, double dt) {
   if (scheme_of(transfer.velocity).keeps == Keeps::nothing) return 1.0;
-  const double x = transfer.damping * sound_speed * dt / cell;
-  return x / (1.0 + x);
+  return decayed_share(transfer.damping, sound_speed, cell, dt);
 }
 
 double squeezed_share(double sound_speed, double cell, double dt) {
-  constexpr double rate = 0.5;
-  const double x = rate * sound_speed * dt / cell;
-  return x / (1.0 + x);
+  return decayed_share(0.5, sound_speed, cell, dt);
 }
 
 template <int Dim>

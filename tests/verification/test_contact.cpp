@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "poreshock/run/profiles.hpp"
 #include "verification/grain_motion.hpp"
 #include "verification/states.hpp"
 
@@ -213,44 +212,6 @@ TEST(ElasticDiscs, LoseLittleEnergyWithPolyFlip) {
 
 TEST(ElasticDiscs, LoseLittleWithNormalsOfPartingPlanes) {
   verify_elastic_discs("elastic_discs_regression", {"contact.normal=regression"});
-}
-
-// Dense Voronoi grains without friction behind a shock of about 18 GPa: they fill the space, and do
-// not creep into each other where three of them meet.
-TEST(DenseGrains, FillSpaceOnceUnderPressure) {
-  const std::string text = std::string(R"(
-[domain]
-size = [0.15e-3, 0.425e-3]
-cell = 6.25e-6
-periodic = true
-[boundary]
-low = "wall"
-high = "free"
-[sample]
-kind = "voronoi_grains"
-height = 0.4e-3
-porosity = 0.03
-grain_radius = 30e-6
-seed = 1
-[loading]
-velocity = 1100
-[contact]
-friction = 0.0
-[time]
-end = 60e-9
-)") + aluminium_text;
-  Simulation<2> sim = start<2>(scene_of(text, {}), MPI_COMM_SELF);
-  advance_to(1000000, 0, sim);
-  std::int64_t floored = 0;
-  const Profile profile = measure_profile(sim, floored);
-  double solid = 0.0;
-  int rows = 0;
-  for (std::size_t j = 0; j < profile.height.size(); ++j) {
-    if (profile.height[j] < 30e-6 || profile.height[j] > 200e-6) continue;
-    solid += profile.solid_fraction[j];
-    ++rows;
-  }
-  verify_at_most("dense_grains", "overlap", std::abs(solid / rows - 1.0), 0.01);
 }
 
 }  // namespace
